@@ -1,0 +1,68 @@
+/// \file image_io.h
+/// Pictures in and out of files. Every header is checked before anything of the size that it asks for is allocated.
+/// Files are written beside their name and renamed, so that a name never holds half a picture.
+#pragma once
+
+#include "renderer/base/image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cellcut {
+
+/// Largest picture that is read, in pixels (16384 × 16384: a 4 GB environment map as float RGBA).
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+
+/// 8-bit RGBA as stored in a PNG or JPEG; the meaning (sRGB or linear) is the user's.
+using ImageRgba8 = Image<glm::vec<4, std::uint8_t>>;
+
+/// A named layer of a multi-layer picture. With one channel the layer is a scalar, with three it is RGB or XYZ.
+struct ImageLayer {
+  std::string name;               ///< "" for the beauty (channels R, G, B), else the prefix: "normal" → normal.X …
+  std::vector<std::string> channels;  ///< suffixes, one per component: {"R","G","B"}, {"X","Y","Z"}, {"Z"}
+  std::vector<float> values;      ///< pixel-interleaved, width · height · channels.size()
+};
+
+/// A picture of one or more layers with what is known of how it was made.
+struct LayeredImage {
+  int width = 0;
+  int height = 0;
+  std::vector<ImageLayer> layers;
+  std::map<std::string, std::string> metadata;
+};
+
+/// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey), .pfm or .hdr.
+/// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than kMaxImagePixels.
+ImageRgb readImage(const std::filesystem::path& file);
+
+/// Decodes a PNG or JPEG that lies in memory. `name` is used in messages only.
+/// \throws InputError as readImage.
+ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name);
+
+/// Encodes 8-bit RGBA as PNG.
+std::vector<std::byte> encodePng(const ImageRgba8& image);
+
+/// Writes all layers as 32-bit float OpenEXR. \throws InputError if the file cannot be written; the old file then stays.
+void writeExr(const std::filesystem::path& file, const LayeredImage& image);
+
+/// Writes raw linear RGB as little-endian PFM.
+void writePfm(const std::filesystem::path& file, const ImageRgb& image);
+
+/// Writes a tone-mapped sRGB picture: each channel of exposure · c through toneMap(), 8 bits.
+void writePng(const std::filesystem::path& file, const ImageRgb& image, float exposure = 1);
+
+/// Linear [0, ∞) → display [0, 1], sRGB-encoded. NaN becomes 0.
+float toneMap(float linear);
+
+/// Writes `bytes` beside `file` and renames. \throws InputError if that fails; the old file then stays.
+void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
+
+/// Whole file in memory. \throws InputError if it is no regular file, cannot be read, or is larger than `maxBytes`.
+std::vector<std::byte> readFile(const std::filesystem::path& file, std::uintmax_t maxBytes);
+
+}  // namespace cellcut

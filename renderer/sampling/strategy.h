@@ -1,0 +1,35 @@
+/// \file strategy.h
+/// The light-sampling strategies by name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace cellcut {
+
+enum class Strategy : std::uint8_t { kUniform, kPower, kProportional };
+
+struct StrategyName {
+  Strategy strategy;
+  std::string_view name;         ///< on the command line and in reports
+  std::string_view description;  ///< one line
+};
+
+inline constexpr std::array kStrategies{
+    StrategyName{Strategy::kUniform, "uniform", "every light with the same probability"},
+    StrategyName{Strategy::kPower, "power", "lights by their flux, wherever they are"},
+    StrategyName{Strategy::kProportional, "proportional", "lights by their unoccluded irradiance at the point; O(N)"},
+};
+
+constexpr std::string_view nameOf(Strategy strategy) { return kStrategies[static_cast<std::size_t>(strategy)].name; }
+
+constexpr std::optional<Strategy> strategyFromName(std::string_view name) {
+  for (const StrategyName& s : kStrategies) {
+    if (s.name == name) return s.strategy;
+  }
+  return std::nullopt;
+}
+
+}  // namespace cellcut

@@ -1,0 +1,26 @@
+/// \file load_scene.h
+/// A scene file of any known kind → Scene.
+#pragma once
+
+#include "renderer/scene/scene.h"
+
+#include <filesystem>
+
+namespace cellcut {
+
+struct LoadOptions {
+  double punctualScale = 1;  ///< multiplies point, spot and directional lights; 1/683 undoes Blender's lm/W
+};
+
+/// Loads .gltf, .glb or .obj by the file's extension (any case).
+/// \throws InputError naming file, place and remedy; nothing else. Bounded: a file that lies about its sizes is refused
+/// before anything of that size is allocated.
+Scene loadScene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// Puts a lat-long picture around the scene, in place of any that it has.
+/// \param scale     multiplies every texel
+/// \param rotation  degrees about +Y, counter-clockwise seen from above
+/// \throws InputError if the file cannot be read or scale is negative or not finite. NaN, Inf and negative texels become 0 and are warned about.
+void setEnvironment(Scene& scene, const std::filesystem::path& file, double scale, double rotation);
+
+}  // namespace cellcut

@@ -1,0 +1,78 @@
+/// \file renderer.h
+/// A scene and settings → passes over a film. The whole of a headless rendering but for files and clocks.
+#pragma once
+
+#include "renderer/sampling/strategy.h"
+#include "renderer/scene/scene.h"
+#include "renderer/trace/film.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace cellcut {
+
+enum class PixelSampling : std::uint8_t { kSobol, kIndependent };
+
+struct RenderSettings {
+  int width = 1280;
+  int height = 720;
+  int maxDepth = 8;       ///< path vertices that scatter: 1 is direct light only; ≥ 0
+  Strategy strategy = Strategy::kProportional;
+  PixelSampling sampling = PixelSampling::kSobol;
+  std::uint64_t seed = 0;
+  int threads = 0;        ///< 0: one per hardware thread
+  std::size_t camera = 0; ///< index into Scene::cameras
+  bool auxiliary = true;  ///< albedo, normal and depth layers
+};
+
+struct RayCounts {
+  std::uint64_t camera = 0;
+  std::uint64_t bounce = 0;
+  std::uint64_t shadow = 0;
+};
+
+struct LightCounts {
+  std::size_t point = 0;
+  std::size_t spot = 0;
+  std::size_t triangle = 0;
+  std::size_t directional = 0;
+  std::size_t environment = 0;  ///< tiles
+};
+
+/// Bytes; what the process holds at most is the operating system's to say.
+struct MemoryUse {
+  std::size_t scene = 0;
+  std::size_t accel = 0;
+  std::size_t lights = 0;  ///< lights and the strategy's tables
+  std::size_t film = 0;
+};
+
+class Renderer {
+ public:
+  /// Builds the ray-tracing structure, the lights and the strategy. The scene must outlive the renderer.
+  /// \pre the settings are within their ranges and `camera` exists
+  Renderer(const Scene& scene, const RenderSettings& settings);
+  ~Renderer();
+
+  /// One more sample per pixel. Returns false, with the film as it was, when `cancel` became true first.
+  /// The film is bit for bit the same on any number of threads.
+  bool renderPass(const std::atomic<bool>& cancel);
+
+  const Film& film() const;
+  const RenderSettings& settings() const;
+  LightCounts lightCounts() const;
+  /// Of all committed passes.
+  RayCounts rays() const;
+  /// Light samples that had to be given up, all committed passes: the shading point coincides with a point light.
+  std::uint64_t droppedSamples() const;
+  MemoryUse memory() const;
+  /// Threads that passes run on.
+  int threads() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace cellcut
