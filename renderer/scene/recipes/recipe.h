@@ -1,0 +1,35 @@
+/// \file recipe.h
+/// Procedural scenes with any number of lights, written as ordinary binary glTF.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace cellcut {
+
+enum class Recipe : std::uint8_t { kRooms, kStreet, kHall, kKinds };
+
+struct RecipeName {
+  Recipe recipe;
+  std::string_view name;
+  std::string_view description;  ///< one line
+};
+
+inline constexpr std::array kRecipes{
+    RecipeName{Recipe::kRooms, "rooms", "a building of rooms with doors and clutter, lamps of many strengths"},
+    RecipeName{Recipe::kStreet, "street", "a street at night: lit windows, lamps as points and spots, a moon"},
+    RecipeName{Recipe::kHall, "hall", "one big hall, chandeliers of tiny emitters, long shadows"},
+    RecipeName{Recipe::kKinds, "kinds", "all five kinds of light at once, small"},
+};
+
+inline constexpr std::size_t kMaxRecipeLights = 10'000'000;
+
+/// The bytes of a .glb with exactly `lights` lights (environment tiles are not counted: a recipe's environment is a picture
+/// beside it or none). The same arguments give the same bytes. \pre lights ≤ kMaxRecipeLights
+std::vector<std::byte> generateRecipe(Recipe recipe, std::size_t lights, std::uint64_t seed);
+
+}  // namespace cellcut
