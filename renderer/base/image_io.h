@@ -40,6 +40,9 @@ struct LayeredImage {
 /// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than kMaxImagePixels.
 ImageRgb readImage(const std::filesystem::path& file);
 
+/// The same from memory; the kind is known by its first bytes. `name` is used in messages only.
+ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name);
+
 /// Decodes a PNG or JPEG that lies in memory. `name` is used in messages only.
 /// \throws InputError as readImage.
 ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name);
@@ -47,7 +50,10 @@ ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& n
 /// Encodes 8-bit RGBA as PNG.
 std::vector<std::byte> encodePng(const ImageRgba8& image);
 
-/// Writes all layers as 32-bit float OpenEXR. \throws InputError if the file cannot be written; the old file then stays.
+/// All layers as 32-bit float OpenEXR, ZIP-compressed.
+std::vector<std::byte> encodeExr(const LayeredImage& image);
+
+/// encodeExr into a file. \throws InputError if the file cannot be written; the old file then stays.
 void writeExr(const std::filesystem::path& file, const LayeredImage& image);
 
 /// Writes raw linear RGB as little-endian PFM.
