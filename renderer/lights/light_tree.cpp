@@ -1,0 +1,269 @@
+#include "renderer/lights/light_tree.h"
+
+#include <array>
+#include <numeric>
+
+#include <oneapi/tbb/parallel_invoke.h>
+
+namespace cellcut {
+namespace {
+
+/// Cut planes tried per axis and node; Conty Estevez and Kulla use 12 buckets.
+constexpr int kBuckets = 12;
+/// Below this many lights a subtree is built by one thread: a task costs a few microseconds.
+constexpr std::size_t kSerialLights = 4096;
+/// From this depth on nodes are halved by count: 2³² lights need 32 more levels, so no path is longer than 96 nodes.
+constexpr int kMaxCostDepth = 64;
+
+/// What the build moves about: a light's bounds in brief.
+struct BuildLight {
+  Vec3 lower, upper;
+  Vec3 axis;          ///< times (1 + cosθo) / 2: none for a light that shines everywhere
+  float intensity;
+  std::uint32_t index;
+  Vec3 middle() const { return 0.5f * lower + 0.5f * upper; }
+};
+
+/// Sums over one bucket.
+struct Bucket {
+  Bounds box;
+  Vec3 axis{0.0f};
+  float intensity = 0;
+  std::uint32_t count = 0;
+
+  void add(const BuildLight& light) {
+    box.lower = glm::min(box.lower, light.lower);
+    box.upper = glm::max(box.upper, light.upper);
+    axis += light.axis;
+    intensity += light.intensity;
+    ++count;
+  }
+  void add(const Bucket& other) {
+    box.add(other.box);
+    axis += other.axis;
+    intensity += other.intensity;
+    count += other.count;
+  }
+  /// Intensity × size × orientation. Size is the squared diagonal and not the surface: the area of collinear lights is zero.
+  /// Orientation runs from 1 (all axes alike) to 4 (everywhere), the ratio of Conty Estevez and Kulla's measure, by the length of
+  /// the mean axis: a sum, where their cone would need a union per light.
+  float cost() const {
+    if (count == 0) return 0;
+    const Vec3 diagonal = box.upper - box.lower;
+    const float alike = glm::length(axis) / static_cast<float>(count);
+    return intensity * glm::dot(diagonal, diagonal) * (4 - 3 * std::min(alike, 1.0f));
+  }
+};
+
+struct Split {
+  int axis = -1;  ///< −1: none is better than another
+  int bucket = 0; ///< last bucket of the left side
+  float cost = kInfinity;
+};
+
+int bucketOf(float middle, float lower, float scale) {
+  return std::min(static_cast<int>((middle - lower) * scale), kBuckets - 1);
+}
+
+Split bestSplit(std::span<const BuildLight> lights, const Bounds& middles) {
+  const Vec3 extent = middles.upper - middles.lower;
+  const float longest = maxComponent(extent);
+  std::array<std::array<Bucket, kBuckets>, 3> buckets;
+  Vec3 scale;
+  for (int axis = 0; axis < 3; ++axis) scale[axis] = extent[axis] > 0 ? kBuckets / extent[axis] : 0.0f;
+  for (const BuildLight& light : lights) {
+    const Vec3 middle = light.middle();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (extent[axis] > 0) {
+        buckets[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bucketOf(middle[axis], middles.lower[axis], scale[axis]))].add(light);
+      }
+    }
+  }
+  Split best;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(extent[axis] > 0)) continue;
+    const auto& row = buckets[static_cast<std::size_t>(axis)];
+    std::array<float, kBuckets> right{};  // cost of all buckets after
+    Bucket sum;
+    for (std::size_t b = kBuckets - 1; b > 0; --b) {
+      sum.add(row[b]);
+      right[b - 1] = sum.count > 0 ? sum.cost() : kInfinity;
+    }
+    sum = Bucket{};
+    for (std::size_t b = 0; b + 1 < kBuckets; ++b) {
+      sum.add(row[b]);
+      if (sum.count == 0) continue;
+      // Thin boxes are discouraged: Conty Estevez and Kulla's regularisation.
+      const float cost = (sum.cost() + right[b]) * (longest / extent[axis]);
+      if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
+    }
+  }
+  return best;
+}
+
+class Builder {
+ public:
+  Builder(std::span<const LightBounds> bounds, std::vector<BuildLight>& lights, std::vector<LightTreeNode>& nodes)
+      : bounds_(bounds), lights_(lights), nodes_(nodes) {}
+
+  /// Builds the subtree over lights [first, last) at `node` and returns its bounds.
+  LightBounds build(std::size_t first, std::size_t last, std::size_t node, int depth) {
+    const std::size_t count = last - first;
+    LightBounds bounds;
+    if (count == 1) {
+      bounds = bounds_[lights_[first].index];
+    } else {
+      const std::size_t middle = split(first, last, depth);
+      const std::size_t right = node + 2 * (middle - first);
+      LightBounds a, b;
+      const auto buildLeft = [&] { a = build(first, middle, node + 1, depth + 1); };
+      const auto buildRight = [&] { b = build(middle, last, right, depth + 1); };
+      if (count > kSerialLights) {
+        tbb::parallel_invoke(buildLeft, buildRight);
+      } else {
+        buildLeft();
+        buildRight();
+      }
+      bounds = merge(a, b);
+    }
+    nodes_[node] = LightTreeNode(bounds, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count));
+    return bounds;
+  }
+
+ private:
+  /// Reorders [first, last) and returns where the right side begins, both sides non-empty.
+  std::size_t split(std::size_t first, std::size_t last, int depth) {
+    const std::span<BuildLight> range(lights_.data() + first, last - first);
+    if (range.size() == 2) return first + 1;
+    Bounds middles;
+    for (const BuildLight& light : range) middles.add(light.middle());
+    const Split best = depth < kMaxCostDepth ? bestSplit(range, middles) : Split{};
+    if (best.axis >= 0) {
+      const float lower = middles.lower[best.axis];
+      const float scale = kBuckets / (middles.upper[best.axis] - lower);
+      const auto middle = std::partition(range.begin(), range.end(), [&](const BuildLight& light) {
+        return bucketOf(light.middle()[best.axis], lower, scale) <= best.bucket;
+      });
+      if (middle != range.begin() && middle != range.end()) {
+        return first + static_cast<std::size_t>(middle - range.begin());
+      }
+    }
+    // Coincident lights, or no finite cost: halve by count.
+    return first + range.size() / 2;
+  }
+
+  std::span<const LightBounds> bounds_;
+  std::vector<BuildLight>& lights_;
+  std::vector<LightTreeNode>& nodes_;
+};
+
+/// Unit vector ↔ two coordinates in [−1, 1]. Source: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
+Vec2 octahedral(const Vec3& v) {
+  const float sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+  const Vec2 p = Vec2(v.x, v.y) / sum;
+  if (v.z >= 0) return p;
+  return {std::copysign(1 - std::abs(p.y), p.x), std::copysign(1 - std::abs(p.x), p.y)};
+}
+
+Vec3 fromOctahedral(Vec2 p) {
+  Vec3 v(p.x, p.y, 1 - std::abs(p.x) - std::abs(p.y));
+  if (v.z < 0) {
+    v.x = std::copysign(1 - std::abs(p.y), p.x);
+    v.y = std::copysign(1 - std::abs(p.x), p.y);
+  }
+  return glm::normalize(v);
+}
+
+std::int16_t toSigned16(float x) { return static_cast<std::int16_t>(std::lround(x * 32767)); }
+
+/// sin(θ/2) of an angle given by its cosine, rounded up to a multiple of 1/65535. `extra` radians are added first.
+std::uint16_t sinHalf16(float cosTheta, float extra) {
+  const float theta = std::min(kPi, std::acos(std::clamp(cosTheta, -1.0f, 1.0f)) + extra);
+  return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * theta) * 65535)));
+}
+
+/// Largest angle between an axis and its 2 × 16-bit code: half a step in the octahedron's plane, stretched by at most √3 · √2.
+constexpr float kAxisError = 4e-5f * 2;
+
+}  // namespace
+
+LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf, std::uint32_t leafCount)
+    : lower_(bounds.box.lower),
+      upper_(bounds.box.upper),
+      intensity_(bounds.intensity),
+      axisX_(toSigned16(octahedral(bounds.axes.axis).x)),
+      axisY_(toSigned16(octahedral(bounds.axes.axis).y)),
+      sinHalfO_(sinHalf16(bounds.axes.cosTheta, kAxisError)),
+      sinHalfE_(sinHalf16(bounds.cosThetaE, 0)),
+      firstLeaf_(firstLeaf),
+      leafCountAndSides_(leafCount | (bounds.twoSided ? kTwoSided : 0)) {}
+
+Cone LightTreeNode::axes() const {
+  const float s = static_cast<float>(sinHalfO_) * (1.0f / 65535);
+  const Vec2 coded(static_cast<float>(axisX_) * (1.0f / 32767), static_cast<float>(axisY_) * (1.0f / 32767));
+  return {fromOctahedral(coded), 1 - 2 * s * s, 2 * s * safeSqrt(1 - s * s)};
+}
+
+float LightTreeNode::cosThetaE() const {
+  const float s = static_cast<float>(sinHalfE_) * (1.0f / 65535);
+  return 1 - 2 * s * s;
+}
+
+LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant)
+    : leafOfLight_(bounds.size(), kNoLeaf), firstId_(firstId) {
+  std::vector<BuildLight> lights;
+  lights.reserve(bounds.size());
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const LightBounds& b = bounds[i];
+    if (!(b.intensity > 0)) continue;
+    const Vec3 lower = distant ? b.axes.axis : b.box.lower, upper = distant ? b.axes.axis : b.box.upper;
+    lights.push_back({lower, upper, b.axes.axis * (0.5f + 0.5f * b.axes.cosTheta), b.intensity, static_cast<std::uint32_t>(i)});
+  }
+  if (lights.empty()) return;
+  nodes_.resize(2 * lights.size() - 1);
+  Builder(bounds, lights, nodes_).build(0, lights.size(), 0, 0);
+
+  leaves_.reserve(lights.size());
+  intensitySums_.reserve(lights.size() + 1);
+  double sum = 0;
+  for (const BuildLight& light : lights) {
+    leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
+    intensitySums_.push_back(sum);
+    sum += light.intensity;
+  }
+  intensitySums_.push_back(sum);
+}
+
+std::uint32_t LightTree::sampleByIntensity(NodeId id, double u) const {
+  const std::uint32_t first = node(id).firstLeaf(), last = first + node(id).leafCount();
+  const double lower = intensitySums_[first], target = lower + u * (intensitySums_[last] - lower);
+  // The last leaf whose sum before it is not above the target; leaves too faint to move the sum are stepped over.
+  const auto begin = intensitySums_.begin();
+  const auto found = std::upper_bound(begin + first + 1, begin + last, target) - begin - 1;
+  return static_cast<std::uint32_t>(found);
+}
+
+double LightTree::pmfByIntensity(NodeId id, std::uint32_t leaf) const {
+  const std::uint32_t first = node(id).firstLeaf(), last = first + node(id).leafCount();
+  return (intensitySums_[leaf + 1] - intensitySums_[leaf]) / (intensitySums_[last] - intensitySums_[first]);
+}
+
+int LightTree::depth() const {
+  // Depth-first order: a stack of the ends of the open nodes is as high as the node is deep.
+  int deepest = 0;
+  std::vector<std::uint32_t> ends;
+  for (const LightTreeNode& n : nodes_) {
+    while (!ends.empty() && n.firstLeaf() >= ends.back()) ends.pop_back();
+    ends.push_back(n.firstLeaf() + n.leafCount());
+    deepest = std::max(deepest, static_cast<int>(ends.size()));
+  }
+  return deepest;
+}
+
+std::size_t LightTree::bytes() const {
+  return nodes_.capacity() * sizeof(LightTreeNode) + leaves_.capacity() * sizeof(LightId) +
+         leafOfLight_.capacity() * sizeof(std::uint32_t) + intensitySums_.capacity() * sizeof(double);
+}
+
+}  // namespace cellcut

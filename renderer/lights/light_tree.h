@@ -1,0 +1,90 @@
+/// \file light_tree.h
+/// Binary hierarchy over the lights of one group; a cluster is a node, and its lights a contiguous range of leaves.
+///
+/// Nodes lie in depth-first order: the left child of node i is i + 1, the right child i + 2 · (leaves of the left child), and a node
+/// with one leaf is a light. Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate cases: design notes below.
+/// Space: metres for local lights; distant lights have no box. Threads: const members may run concurrently.
+#pragma once
+
+#include "renderer/lights/light_bounds.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cellcut {
+
+enum class NodeId : std::uint32_t {};
+
+/// 44 bytes, so that two nodes per light with what belongs to them stay below 120 bytes.
+class LightTreeNode {
+ public:
+  LightTreeNode() = default;
+  LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf, std::uint32_t leafCount);
+
+  const Vec3& lower() const { return lower_; }
+  const Vec3& upper() const { return upper_; }
+  float intensity() const { return intensity_; }
+  std::uint32_t firstLeaf() const { return firstLeaf_; }
+  std::uint32_t leafCount() const { return leafCountAndSides_ & ~kTwoSided; }
+  bool twoSided() const { return (leafCountAndSides_ & kTwoSided) != 0; }
+  /// Wider than what was stored by the rounding of 16-bit coordinates, at most 2·10⁻⁴ rad and more only near π.
+  Cone axes() const;
+  /// θe as a cone's angle: cosine and sine, rounded up.
+  float cosThetaE() const;
+
+ private:
+  static constexpr std::uint32_t kTwoSided = 0x80000000u;
+
+  Vec3 lower_, upper_;
+  float intensity_;
+  std::int16_t axisX_, axisY_;            ///< octahedral
+  std::uint16_t sinHalfO_, sinHalfE_;     ///< sin(θ/2) · 65535, rounded up
+  std::uint32_t firstLeaf_;
+  std::uint32_t leafCountAndSides_;
+};
+static_assert(sizeof(LightTreeNode) == 44);
+
+class LightTree {
+ public:
+  /// O(N log N), parallel, the same tree on any number of threads. Lights with intensity 0 have no leaf.
+  /// \param bounds   one per light; consecutive ids from `firstId`
+  /// \param distant  boxes are ignored: lights are grouped by the direction that they shine in
+  LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant);
+
+  bool empty() const { return nodes_.empty(); }
+  std::size_t leafCount() const { return leaves_.size(); }
+  NodeId root() const { return NodeId{0}; }
+  const LightTreeNode& node(NodeId id) const { return nodes_[static_cast<std::size_t>(id)]; }
+  bool isLeaf(NodeId id) const { return node(id).leafCount() == 1; }
+  NodeId left(NodeId id) const { return static_cast<NodeId>(static_cast<std::uint32_t>(id) + 1); }
+  NodeId right(NodeId id) const {
+    return static_cast<NodeId>(static_cast<std::uint32_t>(id) + 2 * node(left(id)).leafCount());
+  }
+
+  LightId light(std::uint32_t leaf) const { return leaves_[leaf]; }
+  /// Leaf of a light of this tree, or kNoLeaf when it has none.
+  std::uint32_t leafOf(LightId light) const {
+    return leafOfLight_[static_cast<std::uint32_t>(light) - static_cast<std::uint32_t>(firstId_)];
+  }
+  static constexpr std::uint32_t kNoLeaf = 0xffffffffu;
+
+  /// Chooses a leaf of a node with probability proportional to J.
+  /// \param u  uniform in [0, 1)
+  std::uint32_t sampleByIntensity(NodeId node, double u) const;
+  /// Its probability.
+  double pmfByIntensity(NodeId node, std::uint32_t leaf) const;
+
+  std::span<const LightTreeNode> nodes() const { return nodes_; }
+  int depth() const;
+  std::size_t bytes() const;
+
+ private:
+  std::vector<LightTreeNode> nodes_;
+  std::vector<LightId> leaves_;             ///< in depth-first order
+  std::vector<std::uint32_t> leafOfLight_;
+  std::vector<double> intensitySums_;       ///< of all leaves before: N + 1 values. Double, or faint lights could never be drawn
+  LightId firstId_;
+};
+
+}  // namespace cellcut

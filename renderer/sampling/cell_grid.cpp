@@ -1,0 +1,150 @@
+#include "renderer/sampling/cell_grid.h"
+
+#include "renderer/base/rng.h"
+
+#include <array>
+#include <bit>
+
+namespace cellcut {
+namespace {
+
+constexpr std::int32_t kCoordinateLimit = 1 << 20;
+constexpr std::uint64_t kEmptyKey = ~0ull;
+/// Smallest bytes of a cut that is worth a slot; a table of maxBytes has a slot for each such cut.
+constexpr std::size_t kBytesPerSlot = 1024;
+/// Slots looked at before the table counts as full.
+constexpr std::size_t kMaxProbes = 64;
+
+/// 21 bits per axis.
+std::uint64_t keyOf(const CellCoordinates& cell) {
+  const auto bits = [](std::int32_t v) { return static_cast<std::uint64_t>(v + kCoordinateLimit); };
+  return bits(cell.x) | bits(cell.y) << 21 | bits(cell.z) << 42;
+}
+
+CellCoordinates cellOfKey(std::uint64_t key) {
+  const auto coordinate = [](std::uint64_t bits) {
+    return static_cast<std::int32_t>(bits & ((1u << 21) - 1)) - kCoordinateLimit;
+  };
+  return {coordinate(key), coordinate(key >> 21), coordinate(key >> 42)};
+}
+
+/// Stands in a slot whose cell did not fit: it was made by nobody and will be by nobody.
+const Cut* const kNoRoom = reinterpret_cast<const Cut*>(std::uintptr_t{1});
+
+}  // namespace
+
+GridGeometry::GridGeometry(const Bounds& box, int resolution) {
+  const glm::dvec3 lower = box.empty() ? glm::dvec3(0) : glm::dvec3(box.lower);
+  const glm::dvec3 upper = box.empty() ? glm::dvec3(0) : glm::dvec3(box.upper);
+  const glm::dvec3 extent = upper - lower;
+  const double longest = std::max({extent.x, extent.y, extent.z});
+  // A box without extent is one cell, of the size of its coordinates so that it scales with the scene.
+  const double largest = std::max({std::abs(lower.x), std::abs(lower.y), std::abs(lower.z)});
+  size_ = longest > 0 ? longest / resolution : (largest > 0 ? largest : 1);
+  inverseSize_ = 1 / size_;
+  for (int i = 0; i < 3; ++i) {
+    resolution_[i] = std::clamp(static_cast<int>(std::ceil(extent[i] * inverseSize_)), 1, resolution);
+    // The cells are centred on the box: a flat axis lies in the middle of one cell and not on a border.
+    origin_[i] = 0.5 * (lower[i] + upper[i]) - 0.5 * size_ * resolution_[i];
+  }
+}
+
+std::optional<CellCoordinates> GridGeometry::cellOf(const Vec3& p) const {
+  const glm::dvec3 c = (glm::dvec3(p) - origin_) * inverseSize_;
+  constexpr double limit = kCoordinateLimit;
+  if (!(std::abs(c.x) < limit && std::abs(c.y) < limit && std::abs(c.z) < limit)) return std::nullopt;
+  return CellCoordinates{static_cast<std::int32_t>(std::floor(c.x)), static_cast<std::int32_t>(std::floor(c.y)),
+                         static_cast<std::int32_t>(std::floor(c.z))};
+}
+
+Region GridGeometry::region(const CellCoordinates& cell) const {
+  const glm::dvec3 centre = origin_ + (glm::dvec3(cell.x, cell.y, cell.z) + 0.5) * size_;
+  const Vec3 rounded(centre);
+  const double rounding = glm::length(glm::dvec3(rounded) - centre);
+  return {rounded, static_cast<float>(0.5 * std::sqrt(3.0) * size_ + rounding) * (1 + gammaBound(4))};
+}
+
+Bounds centralBox(std::span<const Vec3> points) {
+  Bounds box;
+  if (points.empty()) return box;
+  std::vector<float> values(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(), [&](const Vec3& p) { return p[axis]; });
+    const auto quantile = [&](double share) {
+      const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+      std::nth_element(values.begin(), at, values.end());
+      return *at;
+    };
+    box.lower[axis] = quantile(0.05);
+    box.upper[axis] = quantile(0.95);
+  }
+  return box;
+}
+
+CellTable::CellTable(std::size_t maxBytes)
+    : maxBytes_(maxBytes), slots_(std::bit_ceil(std::max<std::size_t>(maxBytes / kBytesPerSlot, 1))), bytes_(0) {
+  for (Slot& slot : slots_) {
+    slot.key.store(kEmptyKey, std::memory_order_relaxed);
+    slot.cut.store(nullptr, std::memory_order_relaxed);
+  }
+  bytes_ = slots_.size() * sizeof(Slot);
+}
+
+CellTable::~CellTable() {
+  for (const Slot& slot : slots_) {
+    const Cut* cut = slot.cut.load(std::memory_order_relaxed);
+    if (cut != kNoRoom) delete cut;
+  }
+}
+
+const Cut* CellTable::findOrMake(const CellCoordinates& cell, const std::function<Cut()>& make) {
+  const std::uint64_t key = keyOf(cell);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = hashOf(key) & mask;
+  for (std::size_t probe = 0; probe < std::min(kMaxProbes, slots_.size()); ++probe, at = (at + 1) & mask) {
+    Slot& slot = slots_[at];
+    std::uint64_t found = slot.key.load(std::memory_order_acquire);
+    if (found == kEmptyKey && slot.key.compare_exchange_strong(found, key, std::memory_order_acq_rel)) {
+      // Ours to make. Whether there is room is decided before, so that a full table costs no memory.
+      const Cut* made = kNoRoom;
+      if (bytes() < maxBytes_) {
+        made = new Cut(make());
+        bytes_.fetch_add(made->bytes(), std::memory_order_relaxed);
+      }
+      slot.cut.store(made, std::memory_order_release);
+      slot.cut.notify_all();
+      return made == kNoRoom ? nullptr : made;
+    }
+    if (found != key) continue;
+    const Cut* cut = slot.cut.load(std::memory_order_acquire);
+    while (!cut) {
+      slot.cut.wait(nullptr, std::memory_order_acquire);
+      cut = slot.cut.load(std::memory_order_acquire);
+    }
+    return cut == kNoRoom ? nullptr : cut;
+  }
+  return nullptr;
+}
+
+const Cut* CellTable::find(const CellCoordinates& cell) const {
+  const std::uint64_t key = keyOf(cell);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = hashOf(key) & mask;
+  for (std::size_t probe = 0; probe < std::min(kMaxProbes, slots_.size()); ++probe, at = (at + 1) & mask) {
+    const std::uint64_t found = slots_[at].key.load(std::memory_order_acquire);
+    if (found == kEmptyKey) return nullptr;
+    if (found != key) continue;
+    const Cut* cut = slots_[at].cut.load(std::memory_order_acquire);
+    return cut == kNoRoom ? nullptr : cut;
+  }
+  return nullptr;
+}
+
+void CellTable::forEach(const std::function<void(const CellCoordinates&, const Cut&)>& visit) const {
+  for (const Slot& slot : slots_) {
+    const Cut* cut = slot.cut.load(std::memory_order_acquire);
+    if (cut && cut != kNoRoom) visit(cellOfKey(slot.key.load(std::memory_order_relaxed)), *cut);
+  }
+}
+
+}  // namespace cellcut

@@ -1,0 +1,79 @@
+/// \file cell_grid.h
+/// The regular grid of cubic cells, and a table of what was made of the cells that were touched.
+///
+/// Cells are addressed by integer coordinates and hashed, so that only touched cells take memory and space has no border. The first
+/// thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is no global lock. What is made is
+/// never changed.
+#pragma once
+
+#include "renderer/sampling/cut.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cellcut {
+
+struct CellCoordinates {
+  std::int32_t x, y, z;
+  bool operator==(const CellCoordinates&) const = default;
+};
+
+/// Where the cells lie.
+class GridGeometry {
+ public:
+  /// \param box         of the points that the scene is mostly shaded at; empty or flat boxes are valid
+  /// \param resolution  cells along its longest axis, ≥ 1
+  GridGeometry(const Bounds& box, int resolution);
+
+  /// Nothing for points beyond 2²⁰ cells from the box on any axis, and for points that are not finite.
+  std::optional<CellCoordinates> cellOf(const Vec3& p) const;
+  /// A sphere around all float points of a cell, rounding included.
+  Region region(const CellCoordinates& cell) const;
+  double cellSize() const { return size_; }
+  /// Cells that cover the box, per axis.
+  glm::ivec3 resolution() const { return resolution_; }
+
+ private:
+  glm::dvec3 origin_;
+  double size_;
+  double inverseSize_;
+  glm::ivec3 resolution_;
+};
+
+/// Corners of the middle of a cloud of points: per axis from its 5 % to its 95 % quantile, so that the horizon seen from a house does
+/// not stretch the house's cells. Empty for no points.
+Bounds centralBox(std::span<const Vec3> points);
+
+/// Cuts by cell. Threads: every member may run concurrently, but the destructor.
+class CellTable {
+ public:
+  /// \param maxBytes  for cuts and for the table itself; beyond it cells are not kept
+  explicit CellTable(std::size_t maxBytes);
+  ~CellTable();
+  CellTable(const CellTable&) = delete;
+  CellTable& operator=(const CellTable&) = delete;
+
+  /// The cell's cut: found, or made by `make` once for all threads. Null when the memory is used up: the caller makes its own.
+  const Cut* findOrMake(const CellCoordinates& cell, const std::function<Cut()>& make);
+  /// The cell's cut if it was made.
+  const Cut* find(const CellCoordinates& cell) const;
+
+  /// Calls `visit` for each cell that was made, in no order. Not while cells are being made.
+  void forEach(const std::function<void(const CellCoordinates&, const Cut&)>& visit) const;
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Slot {
+    std::atomic<std::uint64_t> key;
+    std::atomic<const Cut*> cut;
+  };
+  std::size_t maxBytes_;
+  std::vector<Slot> slots_;  ///< open addressing, a power of two
+  std::atomic<std::size_t> bytes_;
+};
+
+}  // namespace cellcut

@@ -1,0 +1,139 @@
+#include "renderer/sampling/cut.h"
+
+#include <algorithm>
+
+namespace cellcut {
+namespace {
+
+/// Rounding of a float cosine bound. Without it 1.5 % of adversarial grazing cases lost a light.
+constexpr float kCosineMargin = 1e-5f;
+
+/// A smooth mean distance between two spheres whose centres are D apart: 0.75 ρ at D = 0, D far away.
+/// \param rho  √(r² + r_C²)
+float meanDistance(float distance, float rho) {
+  if (rho == 0) return distance;
+  const float q = rho / (distance + 1.1547f * rho);
+  return distance + rho * q * q;
+}
+
+}  // namespace
+
+LightTrees::LightTrees(const Lights& lights) : LightTrees(lights, intensityExponent(lights)) {}
+
+LightTrees::LightTrees(const Lights& lights, int exponent)
+    : local(localBounds(lights, exponent), LightId{0}, false),
+      distant(distantBounds(lights, exponent), lights.idOf(LightKind::kDirectional, 0), true) {}
+
+std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
+  const LightTreeNode& node = tree.node(id);
+  const Vec3 halfDiagonal = 0.5f * node.upper() - 0.5f * node.lower();
+  const float clusterRadius = glm::length(halfDiagonal);
+  const Vec3 toCluster = (0.5f * node.upper() + 0.5f * node.lower()) - region.centre;
+  const float distance = glm::length(toCluster);
+  const float reach = region.radius + clusterRadius;
+
+  Cluster cluster{id, false, 0, Vec3(0, 0, 1), -1, 0};
+  float cosine = 1;
+  if (reach < distance) {
+    cluster.direction = toCluster / distance;
+    cluster.sinThetaU = reach / distance;
+    cluster.cosThetaU = safeSqrt(1 - cluster.sinThetaU * cluster.sinThetaU);
+    const Cone axes = node.axes();
+    float cosTheta = -glm::dot(axes.axis, cluster.direction);
+    if (node.twoSided()) cosTheta = std::abs(cosTheta);
+    const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
+    const float cosPastAxes = cosSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
+    const float sinPastAxes = sinSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
+    cosine = cosSubClamped(cosPastAxes, sinPastAxes, cluster.cosThetaU, cluster.sinThetaU);
+    if (cosine < node.cosThetaE() - kCosineMargin) return std::nullopt;
+    cosine = std::max(cosine, kCosineMargin);
+  }
+  const float rho = std::sqrt(region.radius * region.radius + clusterRadius * clusterRadius);
+  const float mean = meanDistance(distance, rho);
+  // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
+  cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, std::numeric_limits<float>::max())
+                              : node.intensity();
+  if (!(cluster.estimate > 0)) cluster.estimate = std::numeric_limits<float>::min();
+  return cluster;
+}
+
+Cluster distantCluster(const LightTree& tree, NodeId id) {
+  const LightTreeNode& node = tree.node(id);
+  const Cone axes = node.axes();
+  return {id, true, node.intensity(), -axes.axis, axes.cosTheta, axes.sinTheta};
+}
+
+void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut) {
+  // [0, open) is a heap of clusters that may be split, the rest are lights.
+  cut.clear();
+  std::vector<Cluster> leaves;
+  double sum = 0;
+  const auto below = [](const Cluster& a, const Cluster& b) {
+    // Equal estimates are told apart, so that the cut does not depend on the history of the heap.
+    return a.estimate != b.estimate ? a.estimate < b.estimate : std::pair(a.distant, a.node) > std::pair(b.distant, b.node);
+  };
+  const auto add = [&](const LightTree& tree, bool distant, NodeId node) {
+    const std::optional<Cluster> cluster =
+        distant ? std::optional(distantCluster(tree, node)) : localCluster(tree, node, region);
+    if (!cluster) return;
+    sum += static_cast<double>(cluster->estimate);
+    if (tree.isLeaf(node)) {
+      leaves.push_back(*cluster);
+    } else {
+      cut.push_back(*cluster);
+      std::push_heap(cut.begin(), cut.end(), below);
+    }
+  };
+  if (!trees.local.empty()) add(trees.local, false, trees.local.root());
+  if (!trees.distant.empty()) add(trees.distant, true, trees.distant.root());
+  const auto maxSize = static_cast<std::size_t>(settings.maxSize);
+  while (!cut.empty() && cut.size() + leaves.size() < maxSize &&
+         static_cast<double>(cut.front().estimate) > static_cast<double>(settings.threshold) * sum) {
+    std::pop_heap(cut.begin(), cut.end(), below);
+    const Cluster parent = cut.back();
+    cut.pop_back();
+    sum -= static_cast<double>(parent.estimate);
+    const LightTree& tree = parent.distant ? trees.distant : trees.local;
+    add(tree, parent.distant, tree.left(parent.node));
+    add(tree, parent.distant, tree.right(parent.node));
+  }
+  cut.insert(cut.end(), leaves.begin(), leaves.end());
+  std::sort(cut.begin(), cut.end(), [](const Cluster& a, const Cluster& b) {
+    // Nodes are numbered in depth-first order, and no node of a cut is inside another.
+    return std::pair(a.distant, a.node) < std::pair(b.distant, b.node);
+  });
+}
+
+Cut::Cut(const LightTrees& trees, const std::vector<Cluster>& clusters) : clusters_(clusters.size()) {
+  nodes_.reserve(clusters.size());
+  firstLeaf_.reserve(clusters.size());
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const Cluster& c = clusters[i];
+    clusters_.field(ClusterArrays::kEstimate)[i] = c.estimate;
+    clusters_.field(ClusterArrays::kDirectionX)[i] = c.direction.x;
+    clusters_.field(ClusterArrays::kDirectionY)[i] = c.direction.y;
+    clusters_.field(ClusterArrays::kDirectionZ)[i] = c.direction.z;
+    clusters_.field(ClusterArrays::kCosThetaU)[i] = c.cosThetaU;
+    clusters_.field(ClusterArrays::kSinThetaU)[i] = c.sinThetaU;
+    nodes_.push_back(c.node);
+    const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
+    firstLeaf_.push_back(c.distant ? localLeaves + trees.distant.node(c.node).firstLeaf()
+                                   : trees.local.node(c.node).firstLeaf());
+    if (!c.distant) ++localCount_;
+  }
+}
+
+std::optional<std::size_t> Cut::clusterOf(const LightTrees& trees, std::uint32_t leaf) const {
+  const auto after = std::upper_bound(firstLeaf_.begin(), firstLeaf_.end(), leaf);
+  if (after == firstLeaf_.begin()) return std::nullopt;
+  const auto cluster = static_cast<std::size_t>(after - firstLeaf_.begin()) - 1;
+  const LightTree& tree = isDistant(cluster) ? trees.distant : trees.local;
+  if (leaf - firstLeaf_[cluster] >= tree.node(nodes_[cluster]).leafCount()) return std::nullopt;
+  return cluster;
+}
+
+std::size_t Cut::bytes() const {
+  return sizeof(Cut) + clusters_.bytes() + nodes_.capacity() * sizeof(NodeId) + firstLeaf_.capacity() * sizeof(std::uint32_t);
+}
+
+}  // namespace cellcut

@@ -1,0 +1,80 @@
+/// \file cut.h
+/// A cut through the light trees for a region: the clusters that one light is chosen from there.
+///
+/// Source: Vévoda and Křivánek 2016 (estimates milder than bounds, relative threshold); the search: Walter et al. 2005, section 3.
+#pragma once
+
+#include "renderer/lights/light_tree.h"
+#include "renderer/sampling/cut_weights.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cellcut {
+
+/// The light trees of a scene; either may be empty. Leaves are numbered through: local first, then distant.
+struct LightTrees {
+  explicit LightTrees(const Lights& lights);
+
+  LightTree local;
+  LightTree distant;
+
+  std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
+  std::size_t bytes() const { return local.bytes() + distant.bytes(); }
+
+ private:
+  LightTrees(const Lights& lights, int exponent);
+};
+
+struct CutSettings {
+  float threshold;  ///< no cluster's estimate is above this share of the sum, if maxSize allows; [0, 1]
+  int maxSize;      ///< most clusters in a cut, ≥ 2
+};
+
+/// A sphere that holds all points of a cell, or a single point.
+struct Region {
+  Vec3 centre;
+  float radius;
+};
+
+/// One cluster as seen from a region.
+struct Cluster {
+  NodeId node;
+  bool distant;    ///< of the distant tree
+  float estimate;  ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
+  Vec3 direction;  ///< unit, from the region to the cluster
+  float cosThetaU, sinThetaU;  ///< all directions from the region to the cluster are within θu of `direction`
+};
+
+/// Whether and how much a node can send to a region: estimate J · cos θ' / d̄², θ' the least angle to an emission axis, d̄ a mean
+/// distance. Nothing only if no light of the node can reach any point of the region.
+std::optional<Cluster> localCluster(const LightTree& tree, NodeId node, const Region& region);
+Cluster distantCluster(const LightTree& tree, NodeId node);
+
+/// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a function of
+/// its arguments alone.
+void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
+
+/// A cut in the form in which it is evaluated.
+class Cut {
+ public:
+  Cut() = default;
+  Cut(const LightTrees& trees, const std::vector<Cluster>& clusters);
+
+  std::size_t size() const { return clusters_.size; }
+  const ClusterArrays& clusters() const { return clusters_; }
+  NodeId node(std::size_t cluster) const { return nodes_[cluster]; }
+  bool isDistant(std::size_t cluster) const { return cluster >= localCount_; }
+  /// The cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped or belongs to no cluster.
+  std::optional<std::size_t> clusterOf(const LightTrees& trees, std::uint32_t leaf) const;
+  std::size_t bytes() const;
+
+ private:
+  ClusterArrays clusters_;
+  std::vector<NodeId> nodes_;
+  std::vector<std::uint32_t> firstLeaf_;
+  std::size_t localCount_ = 0;
+};
+
+}  // namespace cellcut
