@@ -108,8 +108,12 @@ const Cut* CellTable::findOrMake(const CellCoordinates& cell, const std::functio
       // Ours to make. Whether there is room is decided before, so that a full table costs no memory.
       const Cut* made = kNoRoom;
       if (bytes() < maxBytes_) {
-        made = new Cut(make());
-        bytes_.fetch_add(made->bytes(), std::memory_order_relaxed);
+        try {
+          made = new Cut(make());
+          bytes_.fetch_add(made->bytes(), std::memory_order_relaxed);
+        } catch (const std::bad_alloc&) {
+          // Others wait for this slot: there is no room, the caller makes its own.
+        }
       }
       slot.cut.store(made, std::memory_order_release);
       slot.cut.notify_all();

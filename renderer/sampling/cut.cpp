@@ -5,9 +5,6 @@
 namespace cellcut {
 namespace {
 
-/// Rounding of a float cosine bound. Without it 1.5 % of adversarial grazing cases lost a light.
-constexpr float kCosineMargin = 1e-5f;
-
 /// A smooth mean distance between two spheres whose centres are D apart: 0.75 ρ at D = 0, D far away.
 /// \param rho  √(r² + r_C²)
 float meanDistance(float distance, float rho) {
@@ -22,7 +19,8 @@ LightTrees::LightTrees(const Lights& lights) : LightTrees(lights, intensityExpon
 
 LightTrees::LightTrees(const Lights& lights, int exponent)
     : local(localBounds(lights, exponent), LightId{0}, false),
-      distant(distantBounds(lights, exponent), lights.idOf(LightKind::kDirectional, 0), true) {}
+      distant(distantBounds(lights, exponent), lights.idOf(LightKind::kDirectional, 0), true),
+      firstDistant(lights.idOf(LightKind::kDirectional, 0)) {}
 
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
   const LightTreeNode& node = tree.node(id);

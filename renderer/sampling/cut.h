@@ -19,6 +19,7 @@ struct LightTrees {
 
   LightTree local;
   LightTree distant;
+  LightId firstDistant;  ///< lights from this number on are distant
 
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }

@@ -12,9 +12,6 @@ namespace cellcut::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Rounding of a cosine bound in float: without it grazing clusters would lose light.
-constexpr float kCosineMargin = 1e-5f;
-
 double clusterWeightsSimd(const ClusterArrays& clusters, const Vec3& n, float* HWY_RESTRICT weights,
                           float* HWY_RESTRICT blockSums) {
   const hn::CappedTag<float, kClusterBlock> d;
@@ -63,17 +60,15 @@ double clusterWeights(const ClusterArrays& clusters, const Vec3& n, float* weigh
 }
 
 double clusterWeightsScalar(const ClusterArrays& clusters, const Vec3& n, float* weights, float* blockSums) {
-  constexpr float margin = 1e-5f;
   double sum = 0;
   for (std::size_t block = 0; block < clusters.blocks(); ++block) {
     float blockSum = 0;
     for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; ++i) {
       const Vec3 direction(clusters.field(ClusterArrays::kDirectionX)[i], clusters.field(ClusterArrays::kDirectionY)[i],
                            clusters.field(ClusterArrays::kDirectionZ)[i]);
-      const float cosine = glm::dot(n, direction), sine = safeSqrt(1 - cosine * cosine);
-      const float cosU = clusters.field(ClusterArrays::kCosThetaU)[i], sinU = clusters.field(ClusterArrays::kSinThetaU)[i];
-      const float factor = cosine >= cosU ? 1.0f : std::max(0.0f, cosine * cosU + sine * sinU + margin);
-      weights[i] = factor * clusters.field(ClusterArrays::kEstimate)[i];
+      weights[i] = clusters.field(ClusterArrays::kEstimate)[i] *
+                   receiverCosine(glm::dot(n, direction), clusters.field(ClusterArrays::kCosThetaU)[i],
+                                  clusters.field(ClusterArrays::kSinThetaU)[i]);
       blockSum += weights[i];
     }
     blockSums[block] = blockSum;

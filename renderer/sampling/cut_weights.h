@@ -32,8 +32,17 @@ struct ClusterArrays {
   std::unique_ptr<float[], Free> values;  ///< aligned for any vector
 };
 
-/// Weight of each cluster at a point with unit normal n: cached estimate × largest cosine that any of its directions can have,
-/// cos(max(0, θ − θu)), at least the rounding margin where it is not provably 0.
+/// Rounding of a cosine bound in float. Without it 1.5 % of adversarial grazing cases lose a light.
+inline constexpr float kCosineMargin = 1e-5f;
+
+/// Largest cosine at a receiver that directions within θu of one at angle θ can have, cos(max(0, θ − θu)), rounded up; 0 only where
+/// none is above the horizon.
+inline float receiverCosine(float cosTheta, float cosThetaU, float sinThetaU) {
+  if (cosTheta >= cosThetaU) return 1;
+  return std::max(0.0f, cosTheta * cosThetaU + safeSqrt(1 - cosTheta * cosTheta) * sinThetaU + kCosineMargin);
+}
+
+/// Weight of each cluster at a point with unit normal n: cached estimate × receiverCosine.
 /// \param weights     out: blocks() · kClusterBlock values, ≥ 0
 /// \param blockSums   out: blocks() values
 /// \return            Σ of blockSums, first to last

@@ -1,0 +1,42 @@
+/// \file cell_cut.h
+/// The method of this program: one cut per grid cell, found when the cell is first touched, and one light from it per path vertex.
+///
+/// Source: Vévoda and Křivánek 2016, doi:10.1145/3005274.3005283.
+#pragma once
+
+#include "renderer/sampling/cell_grid.h"
+#include "renderer/sampling/cut_choice.h"
+
+namespace cellcut {
+
+class CellCutSampler final : public LightSampler {
+ public:
+  /// \param pilot  points that the scene is shaded at, a fixed sample of them: they size the grid
+  CellCutSampler(const Lights& lights, const SamplerSettings& settings, std::span<const Vec3> pilot);
+
+  std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override;
+  float pmf(const ShadingPoint& point, LightId light) const override;
+  std::size_t bytes() const override;
+  SamplerStatistics statistics() const override;
+
+  const LightTrees& trees() const { return trees_; }
+  const GridGeometry& grid() const { return grid_; }
+  /// The cut of the cell, if it was touched and kept.
+  const Cut* find(const CellCoordinates& cell) const { return cells_.find(cell); }
+
+ private:
+  /// Calls `use` with the cut of the cell around p.
+  template <class Use>
+  auto withCut(const Vec3& p, const Use& use) const;
+  Cut makeCut(const Region& region) const;
+
+  LightTrees trees_;
+  SamplerSettings settings_;
+  GridGeometry grid_;
+  /// What sampling fills in: caches of a deterministic function, so that const members stay free of visible effects.
+  mutable CellTable cells_;
+  mutable std::atomic<std::uint64_t> makeNanoseconds_{0};
+  double buildSeconds_ = 0;
+};
+
+}  // namespace cellcut

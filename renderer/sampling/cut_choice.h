@@ -1,0 +1,36 @@
+/// \file cut_choice.h
+/// One light from a cut or from a tree, with its exact probability.
+#pragma once
+
+#include "renderer/sampling/cut.h"
+#include "renderer/sampling/light_sampler.h"
+
+namespace cellcut {
+
+/// How a light is chosen inside a cluster.
+enum class InCluster : std::uint8_t {
+  kIntensity,  ///< proportional to J (Vévoda and Křivánek 2016)
+  kDescent,    ///< down the tree by importance at the point (Conty Estevez and Kulla 2018)
+};
+
+/// Importance of a node at a point: its estimate there × receiverCosine. 0 only if no light of it can contribute.
+float nodeImportance(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point);
+
+/// A leaf below `node`, chosen child by child in proportion to importance.
+struct SampledLeaf {
+  std::uint32_t leaf;
+  double pmf;
+};
+std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, double u);
+double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf);
+
+/// A light of a cut. Nothing when no light of it can reach the point.
+/// \pre cut.size() ≤ kMaxCutSize
+std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point,
+                                      double u);
+float pmfInCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point, LightId light);
+
+/// Weights lie on the stack.
+inline constexpr std::size_t kMaxCutSize = 4096;
+
+}  // namespace cellcut

@@ -1,0 +1,39 @@
+#include "renderer/sampling/cut_choice.h"
+#include "renderer/sampling/strategies.h"
+
+namespace cellcut {
+namespace {
+
+/// A cut found anew at every point, without cells. Source: Wang and Åkerlund 2009, "Bidirectional Importance Sampling for
+/// Unstructured Direct Illumination".
+class PointCutSampler final : public LightSampler {
+ public:
+  PointCutSampler(const Lights& lights, const SamplerSettings& settings) : trees_(lights), settings_(settings) {}
+
+  std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override {
+    return sampleCut(trees_, cutAt(point.p), settings_.inCluster, point, u);
+  }
+  float pmf(const ShadingPoint& point, LightId light) const override {
+    return pmfInCut(trees_, cutAt(point.p), settings_.inCluster, point, light);
+  }
+  std::size_t bytes() const override { return trees_.bytes(); }
+  SamplerStatistics statistics() const override { return {.tree = trees_.statistics()}; }
+
+ private:
+  Cut cutAt(const Vec3& p) const {
+    std::vector<Cluster> clusters;
+    findCut(trees_, {p, 0}, {settings_.threshold, settings_.maxCut}, clusters);
+    return Cut(trees_, clusters);
+  }
+
+  LightTrees trees_;
+  SamplerSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<LightSampler> makePointCutSampler(const Lights& lights, const SamplerSettings& settings) {
+  return std::make_unique<PointCutSampler>(lights, settings);
+}
+
+}  // namespace cellcut
