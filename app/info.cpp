@@ -50,15 +50,6 @@ Json notesOf(const Scene& scene) {
   return notes;
 }
 
-LightCounts countLights(const Scene& scene) {
-  const Lights lights(scene);
-  return {.point = lights.count(LightKind::kPoint),
-          .spot = lights.count(LightKind::kSpot),
-          .triangle = lights.count(LightKind::kTriangle),
-          .directional = lights.count(LightKind::kDirectional),
-          .environment = lights.count(LightKind::kEnvironment)};
-}
-
 Json describe(const Scene& scene) {
   Json info;
   info["meshes"] = scene.counts.meshes;
@@ -68,7 +59,7 @@ Json describe(const Scene& scene) {
   info["materials"] = scene.materials.size();
   info["textures"] = scene.textures.size();
   info["cameras"] = camerasOf(scene);
-  info["lights"] = toJson(countLights(scene));
+  info["lights"] = toJson(Lights(scene).counts());
   info["bounds"] = boundsOf(scene);
   info["origin"] = toJson(scene.origin);
   info["memory"] = {{"scene", scene.bytes()}, {"peak_rss", peakResidentBytes()}};
