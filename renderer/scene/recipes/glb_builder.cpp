@@ -26,7 +26,6 @@ constexpr std::uint32_t kGlbMagic = 0x46546c67;
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 
-
 /// Rounded to a few decimal places, so that JSON stays short where nobody can see the rest.
 double decimal(float value, int places) {
   double power = 1;
@@ -34,9 +33,15 @@ double decimal(float value, int places) {
   return std::round(static_cast<double>(value) * power) / power;
 }
 
-Json vectorJson(const Vec3& v) { return {v.x, v.y, v.z}; }
-Json positionJson(const Vec3& v) { return {decimal(v.x, 4), decimal(v.y, 4), decimal(v.z, 4)}; }
-Json rotationJson(const glm::quat& q) { return {decimal(q.x, 7), decimal(q.y, 7), decimal(q.z, 7), decimal(q.w, 7)}; }
+Json vectorJson(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+Json positionJson(const Vec3& v) {
+  return {decimal(v.x, 4), decimal(v.y, 4), decimal(v.z, 4)};
+}
+Json rotationJson(const glm::quat& q) {
+  return {decimal(q.x, 7), decimal(q.y, 7), decimal(q.z, 7), decimal(q.w, 7)};
+}
 
 /// Rotation whose −z looks along `direction`, with +y as far up as it can be.
 glm::quat lookAlong(const Vec3& direction) {
@@ -46,7 +51,9 @@ glm::quat lookAlong(const Vec3& direction) {
   return glm::quat_cast(glm::mat3(right, glm::cross(back, right), back));
 }
 
-constexpr std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
+constexpr std::size_t padded(std::size_t size) {
+  return (size + 3) / 4 * 4;
+}
 
 }  // namespace
 
@@ -90,7 +97,8 @@ void GlbBuilder::addLight(const LightDefinition& definition, const Vec3& positio
 std::size_t GlbBuilder::lightCount() const {
   std::size_t count = lightNodes_.size();
   for (std::size_t m = 0; m < materials_.size(); ++m) {
-    if (!isBlack(materials_[m].emission)) count += surfaces_[m].flat.triangleCount() + surfaces_[m].smooth.triangleCount();
+    if (!isBlack(materials_[m].emission))
+      count += surfaces_[m].flat.triangleCount() + surfaces_[m].smooth.triangleCount();
   }
   return count;
 }
@@ -122,7 +130,9 @@ class GlbWriter {
   std::size_t binarySize_ = 0;
 };
 
-std::vector<std::byte> GlbBuilder::finish() const { return GlbWriter(*this).write(); }
+std::vector<std::byte> GlbBuilder::finish() const {
+  return GlbWriter(*this).write();
+}
 
 std::vector<std::byte> GlbWriter::write() {
   json_["asset"] = {{"version", "2.0"},
@@ -202,11 +212,12 @@ void GlbWriter::addMeshes() {
 
 void GlbWriter::addMaterials() {
   for (const GlbMaterial& m : in_.materials_) {
-    Json json = {{"name", m.name},
-                 {"pbrMetallicRoughness",
-                  {{"baseColorFactor", {decimal(m.baseColor.x, 4), decimal(m.baseColor.y, 4), decimal(m.baseColor.z, 4), 1}},
-                   {"metallicFactor", decimal(m.metallic, 4)},
-                   {"roughnessFactor", decimal(m.roughness, 4)}}}};
+    Json json = {
+        {"name", m.name},
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {decimal(m.baseColor.x, 4), decimal(m.baseColor.y, 4), decimal(m.baseColor.z, 4), 1}},
+          {"metallicFactor", decimal(m.metallic, 4)},
+          {"roughnessFactor", decimal(m.roughness, 4)}}}};
     if (m.doubleSided) json["doubleSided"] = true;
     if (m.specular != 1) {
       json["extensions"]["KHR_materials_specular"] = {{"specularFactor", decimal(m.specular, 4)}};

@@ -2,8 +2,9 @@
 /// Triangles, materials, lights and cameras → the bytes of a .glb (glTF 2.0, section 4.4; KHR_lights_punctual,
 /// KHR_materials_emissive_strength, KHR_materials_specular).
 ///
-/// Geometry is merged: all triangles of a material are one primitive (two if some are smooth), so that a file with a million
-/// lamps has a few hundred primitives. Point and spot lights cost a node each; lights of equal strength share a definition.
+/// Geometry is merged: all triangles of a material are one primitive (two if some are smooth), so that a file with a
+/// million lamps has a few hundred primitives. Point and spot lights cost a node each; lights of equal strength share a
+/// definition.
 #pragma once
 
 #include "renderer/scene/recipes/shapes.h"
@@ -25,12 +26,12 @@ enum class GlbTextureId : std::uint32_t {};
 /// A material of the file. The defaults are exactly Lambertian.
 struct GlbMaterial {
   std::string name;
-  Vec3 baseColor{0.5f};   ///< linear RGB in [0, 1]
-  float metallic = 0;     ///< [0, 1]
-  float roughness = 1;    ///< [0, 1]
-  float specular = 0;     ///< [0, 1]; strength of the dielectric reflection
-  Vec3 emission{0.0f};    ///< W/(m² sr); a triangle of such a material is one light
-  std::optional<GlbTextureId> emissionTexture;  ///< needs texture coordinates on all of the material's triangles
+  Vec3 baseColor{0.5f};                              ///< linear RGB in [0, 1]
+  float metallic = 0;                                ///< [0, 1]
+  float roughness = 1;                               ///< [0, 1]
+  float specular = 0;                                ///< [0, 1]; strength of the dielectric reflection
+  Vec3 emission{0.0f};                               ///< W/(m² sr); a triangle of such a material is one light
+  std::optional<GlbTextureId> emissionTexture = {};  ///< needs texture coordinates on all of the material's triangles
   bool doubleSided = false;
 };
 
@@ -51,8 +52,8 @@ class GlbBuilder {
 
   /// \param intensity W/sr, not black
   void addPoint(const Vec3& position, const Vec3& intensity);
-  /// \param axis where it shines, any length > 0   \param intensity on the axis, W/sr   \param inner, outer radians from
-  /// the axis, 0 ≤ inner < outer ≤ π/2
+  /// \param axis where it shines, any length > 0   \param intensity on the axis, W/sr   \param inner, outer radians
+  /// from the axis, 0 ≤ inner < outer ≤ π/2
   void addSpot(const Vec3& position, const Vec3& axis, const Vec3& intensity, float inner, float outer);
   /// \param irradiance W/m² across the axis
   void addDirectional(const Vec3& axis, const Vec3& irradiance);

@@ -10,9 +10,13 @@ std::uint32_t Surface::add(const Vec3& position) {
   return static_cast<std::uint32_t>(positions.size() - 1);
 }
 
-void Surface::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
+void Surface::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  indices.insert(indices.end(), {a, b, c});
+}
 
-Pose Pose::turned(const Vec3& origin, float angle) { return {origin, {std::cos(angle), 0, -std::sin(angle)}}; }
+Pose Pose::turned(const Vec3& origin, float angle) {
+  return {origin, {std::cos(angle), 0, -std::sin(angle)}};
+}
 
 Pose Pose::at(const Vec3& local, float angle) const {
   return {point(local), std::cos(angle) * x - std::sin(angle) * z()};

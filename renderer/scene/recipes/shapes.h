@@ -16,9 +16,9 @@ namespace cellcut {
 /// Triangles with shared vertices. An attribute that is not used is empty; otherwise it has one value per position.
 struct Surface {
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;          ///< unit; empty: flat shading
-  std::vector<Vec2> texCoords;        ///< (0, 0) at the top left of the picture
-  std::vector<std::uint32_t> indices; ///< three per triangle
+  std::vector<Vec3> normals;           ///< unit; empty: flat shading
+  std::vector<Vec2> texCoords;         ///< (0, 0) at the top left of the picture
+  std::vector<std::uint32_t> indices;  ///< three per triangle
 
   std::size_t triangleCount() const { return indices.size() / 3; }
   /// Index of a new vertex.
@@ -58,8 +58,8 @@ void addFrustum(Surface& s, const Vec3& base, float bottomRadius, float topRadiu
 void addTetrahedron(Surface& s, const Vec3& centre, float radius, float angle);
 /// The regular solid with 8 faces, corners up and down.
 void addOctahedron(Surface& s, const Vec3& centre, float radius);
-/// Surface of revolution about the vertical through `base`, smooth. `profile` holds (radius, height) from the bottom up, seen
-/// from outside; the same point twice in a row makes a sharp edge.
+/// Surface of revolution about the vertical through `base`, smooth. `profile` holds (radius, height) from the bottom
+/// up, seen from outside; the same point twice in a row makes a sharp edge.
 void addLathe(Surface& s, const Vec3& base, std::span<const Vec2> profile, int segments);
 /// Smooth ball. \param rings of quads from pole to pole, ≥ 2
 void addSphere(Surface& s, const Vec3& centre, float radius, int rings, int segments);
