@@ -59,11 +59,8 @@ void writeExr(const std::filesystem::path& file, const LayeredImage& image);
 /// Writes raw linear RGB as little-endian PFM.
 void writePfm(const std::filesystem::path& file, const ImageRgb& image);
 
-/// Writes a tone-mapped sRGB picture: each channel of exposure · c through toneMap(), 8 bits.
+/// Writes toneMap(exposure · c) of tone_map.h, 8 bits.
 void writePng(const std::filesystem::path& file, const ImageRgb& image, float exposure = 1);
-
-/// Linear [0, ∞) → display [0, 1], sRGB-encoded. NaN becomes 0.
-float toneMap(float linear);
 
 /// Writes `bytes` beside `file` and renames. \throws InputError if that fails; the old file then stays.
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
