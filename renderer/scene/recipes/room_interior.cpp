@@ -84,6 +84,12 @@ class Furnisher {
   Furnisher(Palette& palette, const RoomSpace& room, FloorPlan plan, Rng& rng)
       : palette_(palette), room_(room), plan_(std::move(plan)), rng_(rng) {}
 
+  /// \param kind 0 … 4: living room, bedroom, dining room, gallery, study
+  void fullRoom(std::uint32_t kind);
+  /// What a room of a building of thousands can afford: boxes.
+  void sparseRoom(std::uint32_t kind);
+
+ private:
   void sofa() {
     static constexpr std::array kCloths{Paint::kRedCloth, Paint::kBlueCloth, Paint::kGreenCloth, Paint::kMustardCloth,
                                         Paint::kWhiteCloth};
@@ -116,16 +122,64 @@ class Furnisher {
     if (const auto p = placeFree(plan_, room_, kCratesFootprint, 1, rng_)) addCrates(palette_, *p, rng_);
   }
 
- private:
   Palette& palette_;
   const RoomSpace& room_;
   FloorPlan plan_;
   Rng& rng_;
 };
 
-template <class Function>
-void times(std::uint32_t n, Function function) {
-  for (std::uint32_t i = 0; i < n; ++i) function();
+void Furnisher::fullRoom(std::uint32_t kind) {
+  constexpr std::uint32_t kBooks = 11;
+  switch (kind) {
+    case 0:
+      coffeeTable();
+      sofa();
+      sofa();
+      shelf(kBooks);
+      plant();
+      break;
+    case 1:
+      bed();
+      desk();
+      plant();
+      break;
+    case 2:
+      diningTable();
+      shelf(kBooks);
+      plant();
+      crates();
+      break;
+    case 3:
+      for (int i = 0; i < 5; ++i) pedestal();
+      coffeeTable();
+      break;
+    default:
+      desk();
+      for (int i = 0; i < 3; ++i) shelf(kBooks);
+      for (int i = 0; i < 4; ++i) crates();
+      break;
+  }
+}
+
+void Furnisher::sparseRoom(std::uint32_t kind) {
+  switch (kind) {
+    case 0:
+      sofa();
+      break;
+    case 1:
+      bed();
+      break;
+    case 2:
+      shelf(0);
+      break;
+    case 3:
+      desk();
+      break;
+    default:
+      crates();
+      break;
+  }
+  crates();
 }
 
 }  // namespace
@@ -135,37 +189,10 @@ void furnishRoom(Palette& palette, const RoomSpace& room, Clutter clutter, std::
   constexpr float kClear = 1.1f;
   if (keepClear) plan.take({*keepClear - kClear, *keepClear + kClear});
   Furnisher put(palette, room, std::move(plan), rng);
-  const bool full = clutter == Clutter::kFull;
-  const std::uint32_t books = full ? 11 : 0;
-  switch (rng.below(5)) {
-    case 0:  // living room
-      put.coffeeTable();
-      put.sofa();
-      put.sofa();
-      put.shelf(books);
-      put.plant();
-      break;
-    case 1:  // bedroom
-      put.bed();
-      put.desk();
-      put.plant();
-      break;
-    case 2:  // dining room
-      if (full) put.diningTable();
-      put.shelf(books);
-      put.plant();
-      put.crates();
-      break;
-    case 3:  // gallery
-      times(full ? 5 : 1, [&] { put.pedestal(); });
-      put.coffeeTable();
-      break;
-    default:  // study
-      put.desk();
-      times(full ? 3 : 1, [&] { put.shelf(books); });
-      put.crates();
-      times(full ? 3 : 1, [&] { put.crates(); });
-      break;
+  if (clutter == Clutter::kFull) {
+    put.fullRoom(rng.below(5));
+  } else {
+    put.sparseRoom(rng.below(5));
   }
 }
 
