@@ -3,7 +3,7 @@
 #include "renderer/base/image_io.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/recipes/recipe.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/temporary_directory.h"
 
 #include <algorithm>
 #include <csignal>
@@ -92,21 +92,21 @@ TEST(CommandLine, BadUsageIsOneLine) {
 }
 
 TEST(CommandLine, FilesThatAreNotThereAreBadInput) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   expectRefused({"info", (folder / "no.glb").string()}, "no.glb");
   expectRefused({"compare", (folder / "no.exr").string(), (folder / "no.exr").string()}, "no.exr");
   expectRefused({"render", (folder / "no.glb").string(), "-o", (folder / "a.png").string()}, "no.glb");
 }
 
 TEST(CommandLine, PicturesOfDifferentSizesDoNotCompare) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writePfm(folder / "a.pfm", ImageRgb(2, 3));
   writePfm(folder / "b.pfm", ImageRgb(3, 2));
   expectRefused({"compare", (folder / "a.pfm").string(), (folder / "b.pfm").string()}, "2x3");
 }
 
 TEST(CommandLine, CompareReportsTheDifference) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writePfm(folder / "a.pfm", ImageRgb(8, 8, Vec3(3)));
   writePfm(folder / "b.pfm", ImageRgb(8, 8, Vec3(2)));
   const Outcome outcome = run({"compare", (folder / "a.pfm").string(), (folder / "b.pfm").string()});
@@ -163,7 +163,7 @@ class VerbsOnAScene : public testing::Test {
     std::ifstream file(path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  TempFolder folder_;
+  test::TemporaryDirectory folder_;
 };
 
 TEST_F(VerbsOnAScene, InfoCountsWhatTheRecipeWasAskedFor) {
