@@ -65,10 +65,16 @@ class Film {
     glm::dvec3 normal{0.0};
     double depth = 0;
   };
+  struct PendingAuxiliary {
+    Vec3 albedo, normal;
+    float depth;
+  };
+  Image<glm::dvec3> errors() const;
+
   Image<Sums> sums_;
   Image<Auxiliary> auxiliary_;        ///< empty unless asked for
   Image<Vec3> pendingRadiance_;
-  Image<PathSample> pendingAuxiliary_;  ///< empty unless asked for
+  Image<PendingAuxiliary> pendingAuxiliary_;  ///< empty unless asked for
   std::uint64_t passes_ = 0;
   BadSamples bad_;
 };

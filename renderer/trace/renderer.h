@@ -2,6 +2,8 @@
 /// A scene and settings → passes over a film. The whole of a headless rendering but for files and clocks.
 #pragma once
 
+#include "renderer/base/pixel_sampler.h"
+#include "renderer/lights/lights.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/film.h"
@@ -12,7 +14,6 @@
 
 namespace cellcut {
 
-enum class PixelSampling : std::uint8_t { kSobol, kIndependent };
 
 struct RenderSettings {
   int width = 1280;
@@ -30,14 +31,6 @@ struct RayCounts {
   std::uint64_t camera = 0;
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
-};
-
-struct LightCounts {
-  std::size_t point = 0;
-  std::size_t spot = 0;
-  std::size_t triangle = 0;
-  std::size_t directional = 0;
-  std::size_t environment = 0;  ///< tiles
 };
 
 /// Bytes; what the process holds at most is the operating system's to say.
