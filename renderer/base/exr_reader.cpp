@@ -141,10 +141,20 @@ void checkTiles(const Imf::TileDescription& tiles, const Window& data, std::int6
   }
 }
 
+/// It costs the file nothing: a small crop of a large picture is legal, a speck in a void is damage.
+void checkDisplayWindow(const Window& display, std::int64_t dataPixels, const std::string& name) {
+  constexpr std::int64_t kAlwaysAllowed = std::int64_t{1} << 24;
+  const std::int64_t limit = std::min(kMaxImagePixels, std::max(kAlwaysAllowed, 16 * dataPixels));
+  if (display.width <= 0 || display.height <= 0 || display.width > limit / display.height) {
+    throw InputError(name, "its display window of " + std::to_string(display.width) + " x " +
+                               std::to_string(display.height) +
+                               " pixels does not fit its data; save it again uncropped");
+  }
+}
+
 /// Everything that the library's memory depends on.
 void checkHeader(const Imf::Header& header, std::size_t fileBytes, const std::string& name) {
   const Window data = toWindow(header.dataWindow());
-  const Window display = toWindow(header.displayWindow());
   std::int64_t count = 0;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++count;
   if (count > kMaxChannels) {
@@ -153,10 +163,7 @@ void checkHeader(const Imf::Header& header, std::size_t fileBytes, const std::st
   const std::int64_t pixelBytes = bytesPerPixel(header.channels());
   const std::int64_t limit = expansionLimit(header.compression());
   checkImageSize(data.width, data.height, fileBytes, std::max<std::int64_t>(1, limit / pixelBytes), name);
-  // The display window costs the file nothing: a small crop of a large picture is legal, a speck in a void is damage.
-  constexpr std::int64_t kAlwaysAllowed = std::int64_t{1} << 24;
-  const std::int64_t plausible = std::max(kAlwaysAllowed, 16 * data.width * data.height);
-  checkImageSize(display.width, display.height, static_cast<std::size_t>(plausible), 1, name);
+  checkDisplayWindow(toWindow(header.displayWindow()), data.width * data.height, name);
   if (header.hasTileDescription()) checkTiles(header.tileDescription(), data, pixelBytes, name);
 }
 

@@ -1,0 +1,34 @@
+#include "renderer/scene/camera.h"
+
+#include <cassert>
+
+namespace cellcut {
+
+Ray cameraRay(const Camera& camera, Vec2 film, glm::ivec2 size) {
+  assert(size.x > 0 && size.y > 0);
+  // Offset from the middle of the film in half heights, so that the vertical angle does not depend on the aspect.
+  const Vec2 halfSize = 0.5f * Vec2(size);
+  const Vec2 offset{(film.x - halfSize.x) / halfSize.y, 1 - film.y / halfSize.y};
+  if (camera.orthographic) {
+    const Vec3 across = camera.halfHeight * (offset.x * camera.right + offset.y * camera.up);
+    return {camera.position + across, -camera.back};
+  }
+  const float halfTangent = std::tan(0.5f * camera.verticalFov);
+  return {camera.position,
+          glm::normalize(halfTangent * (offset.x * camera.right + offset.y * camera.up) - camera.back)};
+}
+
+Camera defaultCamera(const Bounds& bounds) {
+  const float radius = bounds.radius() > 0 ? bounds.radius() : 1.0f;
+  const Vec3 centre = bounds.empty() ? Vec3{0} : bounds.centre();
+  Camera camera;
+  camera.name = "default";
+  camera.back = glm::normalize(Vec3{0.6f, 0.45f, 1.0f});
+  camera.right = glm::normalize(glm::cross(Vec3{0, 1, 0}, camera.back));
+  camera.up = glm::cross(camera.back, camera.right);
+  // The sphere around the box just touches the top and the bottom of the picture.
+  camera.position = centre + radius / std::sin(0.5f * camera.verticalFov) * camera.back;
+  return camera;
+}
+
+}  // namespace cellcut

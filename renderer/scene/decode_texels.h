@@ -1,0 +1,21 @@
+/// \file decode_texels.h
+/// Many pictures at once.
+#pragma once
+
+#include "renderer/base/image_io.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cellcut {
+
+struct EncodedImage {
+  std::string name;  ///< for messages
+  std::span<const std::byte> bytes;
+};
+
+/// decodeImage8 of each, in parallel and in order. \throws InputError of the first that cannot be decoded
+std::vector<ImageRgba8> decodeTexels(std::span<const EncodedImage> images);
+
+}  // namespace cellcut

@@ -1,0 +1,143 @@
+#include "renderer/scene/gltf_document.h"
+
+#include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
+#include "renderer/scene/gltf_container.h"
+#include "renderer/scene/gltf_validation.h"
+#include "renderer/scene/scene_folder.h"
+
+#include <cstring>
+#include <optional>
+
+namespace cellcut {
+namespace {
+
+/// What the parser's callbacks share. They report through the parser's own error path; the first InputError is kept
+/// here, because the parser would drop it (a missing image is only a warning to it).
+struct ParseContext {
+  const SceneFolder& folder;
+  std::vector<std::vector<std::byte>>& images;
+  std::optional<InputError> error = std::nullopt;
+
+  bool fail(const InputError& reason) {
+    if (!error) error = reason;
+    return false;
+  }
+};
+
+ParseContext& contextOf(void* user) {
+  return *static_cast<ParseContext*>(user);
+}
+
+bool readBeside(std::vector<unsigned char>* bytes, std::string*, const std::string& reference, void* user) {
+  ParseContext& context = contextOf(user);
+  // Data of a kind that the parser does not know, such as WebP. A buffer cannot do without; an image may never be used.
+  if (reference.starts_with("data:")) return false;
+  try {
+    const std::vector<std::byte> file = context.folder.read(reference);
+    bytes->resize(file.size());
+    if (!file.empty()) std::memcpy(bytes->data(), file.data(), file.size());
+    return true;
+  } catch (const InputError& error) {
+    return context.fail(error);
+  }
+}
+
+/// tinygltf asks for sizes, and limits them, from version 2.9 on.
+template <class Callbacks, class Parser>
+void setSizeLimits(Callbacks& callbacks, Parser& parser) {
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 1;  // any size that it accepts: readBeside looks at the real one
+      return true;
+    };
+  }
+  if constexpr (requires { parser.SetMaxExternalFileSize(std::size_t{}); }) {
+    parser.SetMaxExternalFileSize(kMaxSceneFileBytes);
+  }
+}
+
+/// Keeps the encoded bytes; images in buffer views are found there later, once the view is known to be sound.
+bool keepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, int, int, const unsigned char* bytes,
+                 int size, void* user) {
+  if (image->bufferView >= 0) return true;
+  ParseContext& context = contextOf(user);
+  const auto slot = static_cast<std::size_t>(index);
+  if (size < 0) return context.fail(InputError("images[" + std::to_string(index) + "]", "is larger than 2 GB"));
+  if (context.images.size() <= slot) context.images.resize(slot + 1);
+  const auto* first = reinterpret_cast<const std::byte*>(bytes);
+  context.images[slot].assign(first, first + size);
+  return true;
+}
+
+std::string firstLine(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \n");
+  if (begin == std::string::npos) return "it is not a glTF file";
+  std::string line = text.substr(begin, std::min<std::size_t>(text.find('\n', begin) - begin, 200));
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  }
+  return line;
+}
+
+/// False if the parser cannot go on; `complaint` then says why, and else what it goes on without.
+bool parse(std::span<const std::byte> file, ParseContext& context, tinygltf::Model& model, std::string& complaint) {
+  tinygltf::TinyGLTF parser;
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string&, void*) { return true; };  // so that reading reports what is wrong
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = readBeside;
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  callbacks.user_data = &context;
+  setSizeLimits(callbacks, parser);
+  parser.SetFsCallbacks(callbacks);
+  parser.SetImageLoader(keepEncoded, &context);
+
+  std::string errors, warnings;
+  const auto size = static_cast<unsigned int>(file.size());
+  bool parsed = false;
+  try {
+    parsed = isBinaryGltf(file) ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                                              reinterpret_cast<const unsigned char*>(file.data()), size)
+                                : parser.LoadASCIIFromString(&model, &errors, &warnings,
+                                                             reinterpret_cast<const char*>(file.data()), size, "");
+  } catch (const std::exception& error) {  // the JSON library's, and at() on empty buffers
+    errors += error.what();
+  }
+  if (!parsed || !errors.empty()) complaint = firstLine(errors);
+  return parsed;
+}
+
+}  // namespace
+
+std::string placeOf(const GltfDocument& document, const char* array, std::size_t index) {
+  return document.name + ": " + array + '[' + std::to_string(index) + ']';
+}
+
+std::span<const std::byte> bufferViewBytes(const tinygltf::Model& model, int bufferView) {
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(bufferView)];
+  const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  return std::as_bytes(std::span(data)).subspan(view.byteOffset, view.byteLength);
+}
+
+GltfDocument readGltf(const std::filesystem::path& file) {
+  GltfDocument document;
+  document.name = file.filename().string();
+  const SceneFolder folder(file);
+  // One byte less than the limit: the parser counts in 32 bits.
+  const std::vector<std::byte> bytes = readFile(file, kMaxSceneFileBytes - 1);
+  checkJsonShape(gltfJson(bytes, document.name), document.name);
+
+  ParseContext context{folder, document.images};
+  const bool parsed = parse(bytes, context, document.model, document.complaint);
+  checkExtensions(document);  // first: an unknown format inside explains what else is wrong
+  if (context.error) throw *context.error;
+  if (!parsed) throw InputError(document.name, document.complaint);
+  document.images.resize(document.model.images.size());
+  checkDocument(document);
+  return document;
+}
+
+}  // namespace cellcut

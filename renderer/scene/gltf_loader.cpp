@@ -1,0 +1,134 @@
+#include "renderer/scene/gltf_loader.h"
+
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf_document.h"
+#include "renderer/scene/gltf_geometry.h"
+#include "renderer/scene/gltf_materials.h"
+#include "renderer/scene/gltf_nodes.h"
+#include "renderer/scene/gltf_validation.h"
+#include "renderer/scene/gltf_values.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+namespace cellcut {
+namespace {
+
+/// A primitive of a mesh that the active scene shows.
+struct UsedPrimitive {
+  std::size_t mesh;
+  const tinygltf::Primitive* primitive;
+};
+
+const tinygltf::Mesh* meshOf(const GltfDocument& document, const GltfNode& node) {
+  const int mesh = document.model.nodes[node.index].mesh;
+  return mesh < 0 ? nullptr : &document.model.meshes[static_cast<std::size_t>(mesh)];
+}
+
+/// A small file can ask for any number of triangles by instances of instances: count before anything is read.
+void checkTriangleBudget(const GltfDocument& document, const std::vector<GltfNode>& nodes) {
+  std::size_t count = 0;
+  for (const GltfNode& node : nodes) {
+    const tinygltf::Mesh* mesh = meshOf(document, node);
+    if (!mesh) continue;
+    for (const tinygltf::Primitive& primitive : mesh->primitives) count += triangleCount(document, primitive);
+    if (count > kMaxTriangles) {
+      throw InputError(document.name, "more than " + std::to_string(kMaxTriangles) +
+                                          " triangles with all instances written out, which is not supported");
+    }
+  }
+}
+
+/// Lists the primitives of the meshes in use and instances of them in draft.instances.
+std::vector<UsedPrimitive> listPrimitives(const GltfDocument& document, const std::vector<GltfNode>& nodes,
+                                          SceneDraft& draft) {
+  constexpr std::size_t kUnused = ~std::size_t{0};
+  std::vector<std::size_t> firstPart(document.model.meshes.size(), kUnused);
+  std::vector<UsedPrimitive> used;
+  for (const GltfNode& node : nodes) {
+    const tinygltf::Mesh* mesh = meshOf(document, node);
+    if (!mesh) continue;
+    ++draft.scene.counts.instances;
+    const auto index = static_cast<std::size_t>(document.model.nodes[node.index].mesh);
+    if (firstPart[index] == kUnused) {
+      firstPart[index] = used.size();
+      for (const tinygltf::Primitive& primitive : mesh->primitives) used.push_back({index, &primitive});
+    }
+    for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
+      draft.instances.push_back({firstPart[index] + i, node.world});
+    }
+  }
+  return used;
+}
+
+void readParts(const GltfDocument& document, const std::vector<UsedPrimitive>& used, SceneDraft& draft) {
+  draft.parts.resize(used.size());
+  tbb::parallel_for(std::size_t{0}, used.size(), [&](std::size_t i) {
+    const int own = used[i].primitive->material;
+    const std::size_t material = own < 0 ? document.model.materials.size() : static_cast<std::size_t>(own);
+    draft.parts[i] = readPrimitive(document, used[i].mesh, *used[i].primitive,
+                                   MaterialId{static_cast<std::uint32_t>(material)}, draft.scene.materials[material]);
+  });
+}
+
+void readEnvironment(const GltfDocument& document, Scene& scene) {
+  const tinygltf::Value* environment = extension(document.model.extensions, "CELLCUT_environment");
+  if (!environment) return;
+  const std::string place = document.name + ": CELLCUT_environment";
+  const std::optional<int> bufferView = indexMember(*environment, "bufferView", place);
+  if (!bufferView || static_cast<std::size_t>(*bufferView) >= document.model.bufferViews.size()) {
+    throw InputError(place, "its bufferView does not exist; export the file again");
+  }
+  setEnvironment(scene, decodeImage(bufferViewBytes(document.model, *bufferView), place), 1, 0, place);
+}
+
+bool hasPunctualLights(const Scene& scene) {
+  return !(scene.pointLights.empty() && scene.spotLights.empty() && scene.directionalLights.empty());
+}
+
+void addWarnings(const GltfDocument& document, const std::vector<UsedPrimitive>& used, const LoadOptions& options,
+                 Scene& scene) {
+  if (!document.complaint.empty()) warnOnce(scene, "not all of the file could be read: " + document.complaint);
+  warnOfIgnoredExtensions(document, scene);
+  const bool anyTargets =
+      std::any_of(used.begin(), used.end(), [](const auto& u) { return !u.primitive->targets.empty(); });
+  if (!document.model.skins.empty() || !document.model.animations.empty() || anyTargets) {
+    warnOnce(scene, "skins, animations and morph targets are ignored; the rest pose is shown");
+  }
+  for (const UsedPrimitive& use : used) {
+    if (use.primitive->mode < TINYGLTF_MODE_TRIANGLES || use.primitive->mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+      warnOnce(scene, "points and lines are not shown");
+    } else if (!use.primitive->attributes.contains("POSITION")) {
+      warnOnce(scene, "primitives without positions are not shown");
+    }
+  }
+  if (hasPunctualLights(scene) && options.punctualScale == 1 && scene.generator.find("Blender") != std::string::npos) {
+    warnOnce(scene,
+             "Blender writes its point, spot and sun lights with 683 lm/W and its emissive surfaces without; "
+             "--punctual-scale blender makes them fit");
+  }
+}
+
+}  // namespace
+
+SceneDraft loadGltf(const std::filesystem::path& file, const LoadOptions& options) {
+  const GltfDocument document = readGltf(file);
+  SceneDraft draft;
+  draft.name = document.name;
+  draft.scene.generator = document.model.asset.generator;
+  draft.scene.counts.meshes = document.model.meshes.size();
+
+  const std::vector<GltfNode> nodes = activeNodes(document);
+  checkTriangleBudget(document, nodes);
+  readMaterials(document, draft.scene);
+  const std::vector<UsedPrimitive> used = listPrimitives(document, nodes, draft);
+  readParts(document, used, draft);
+  readLights(document, nodes, options, draft);
+  readCameras(document, nodes, draft);
+  readEnvironment(document, draft.scene);
+  addWarnings(document, used, options, draft.scene);
+  return draft;
+}
+
+}  // namespace cellcut

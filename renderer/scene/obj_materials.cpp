@@ -1,0 +1,129 @@
+#include "renderer/scene/obj_materials.h"
+
+#include "renderer/base/error.h"
+#include "renderer/scene/decode_texels.h"
+#include "renderer/scene/scene_draft.h"
+
+#include <algorithm>
+
+// Debian builds the library for float and for double. Positions far from zero need double.
+#define TINYOBJLOADER_USE_DOUBLE
+#include <tiny_obj_loader.h>
+
+namespace cellcut {
+namespace {
+
+/// The pictures of one MTL file, each read once and decoded together at the end.
+class Pictures {
+ public:
+  Pictures(const SceneFolder& folder, Scene& scene) : folder_(folder), scene_(scene) {}
+
+  /// The slot of a map; empty if it names no file, and with a warning if the file is missing.
+  TextureSlot slot(std::string reference, bool clamp) {
+    TextureSlot slot;
+    if (reference.empty()) return slot;
+    std::replace(reference.begin(), reference.end(), '\\', '/');  // as programs on Windows write it
+    const std::filesystem::path file = folder_.resolve(reference);
+    if (!std::filesystem::exists(file)) {
+      warnOnce(scene_, reference.substr(0, 80) + " is missing; its material is shown without it");
+      return slot;
+    }
+    const auto [entry, isNew] = index_.try_emplace(file.string(), files_.size());
+    if (isNew) {
+      files_.push_back(folder_.read(reference));
+      names_.push_back(file.filename().string());
+    }
+    const Wrap wrap = clamp ? Wrap::kClamp : Wrap::kRepeat;
+    slot.texture = TextureId{static_cast<std::uint32_t>(scene_.textures.size())};
+    scene_.textures.push_back({TexelsId{static_cast<std::uint32_t>(scene_.texels.size() + entry->second)}, wrap, wrap});
+    return slot;
+  }
+
+  void decode() {
+    std::vector<EncodedImage> encoded;
+    for (std::size_t i = 0; i < files_.size(); ++i) encoded.push_back({names_[i], files_[i]});
+    std::vector<ImageRgba8> texels = decodeTexels(encoded);
+    std::move(texels.begin(), texels.end(), std::back_inserter(scene_.texels));
+  }
+
+ private:
+  const SceneFolder& folder_;
+  Scene& scene_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::vector<std::byte>> files_;
+  std::vector<std::string> names_;
+};
+
+/// NaN becomes `low`.
+float clamped(double value, double low, double high) {
+  return static_cast<float>(value > low ? std::min(value, high) : low);
+}
+
+Vec3 colorOf(const tinyobj::real_t (&c)[3]) {
+  return {clamped(c[0], 0, 1), clamped(c[1], 0, 1), clamped(c[2], 0, 1)};
+}
+
+/// GGX alpha with the lobe of a Blinn-Phong exponent: α² = 2 / (Ns + 2). Source: Walter et al. 2007, section 5.2.
+float roughnessOf(double exponent) {
+  const double alphaSquared = 2 / (std::clamp(exponent, 0.0, 1e6) + 2);
+  return static_cast<float>(std::sqrt(std::sqrt(alphaSquared)));
+}
+
+Vec3 emissionOf(const tinyobj::material_t& source, const std::string& place) {
+  const Vec3 emission(glm::dvec3(source.emission[0], source.emission[1], source.emission[2]));
+  if (!isFinite(emission) || emission.x < 0 || emission.y < 0 || emission.z < 0) {
+    throw InputError(place, "Ke must be finite and 0 or more");
+  }
+  return emission;
+}
+
+Material materialOf(const tinyobj::material_t& source, const std::string& place, Pictures& pictures) {
+  Material material;
+  material.name = source.name;
+  material.metallic = 0;
+  material.baseColor = {colorOf(source.diffuse), clamped(source.dissolve, 0, 1)};
+  material.baseColorTexture = pictures.slot(source.diffuse_texname, source.diffuse_texopt.clamp);
+  // Illumination model 1 has no highlight whatever Ks says. Ks of 1 is a dielectric's full reflection, 4 % at normal
+  // incidence.
+  material.specular = source.illum == 1 ? 0.0f : maxComponent(colorOf(source.specular));
+  material.roughness = material.specular > 0 ? roughnessOf(source.shininess) : 1.0f;
+  material.emission = emissionOf(source, place);
+  material.emissionTexture = pictures.slot(source.emissive_texname, source.emissive_texopt.clamp);
+  if (material.emissionTexture.texture && isBlack(material.emission)) material.emission = Vec3(1);
+  if (material.baseColor.w < 1) material.alphaMode = AlphaMode::kBlend;
+  material.doubleSided = isBlack(material.emission);
+  return material;
+}
+
+}  // namespace
+
+ByteStream::ByteStream(std::vector<std::byte>& bytes) : std::istream(static_cast<std::streambuf*>(this)) {
+  char* begin = reinterpret_cast<char*>(bytes.data());
+  setg(begin, begin, begin + bytes.size());
+}
+
+std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector<std::byte> bytes,
+                                          const std::string& name, Scene& scene) {
+  std::map<std::string, int> indices;
+  std::vector<tinyobj::material_t> materials;
+  std::string warnings, errors;
+  ByteStream stream(bytes);
+  tinyobj::LoadMtl(&indices, &materials, &stream, &warnings, &errors);
+  if (!errors.empty()) throw InputError(name, errors.substr(0, errors.find('\n')));
+
+  Pictures pictures(folder, scene);
+  const std::size_t first = scene.materials.size();
+  for (const tinyobj::material_t& source : materials) {
+    scene.materials.push_back(materialOf(source, name + ": " + source.name.substr(0, 80), pictures));
+  }
+  pictures.decode();
+  std::map<std::string, MaterialId> ids;
+  for (const auto& [material, index] : indices) {
+    if (index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
+      ids[material] = MaterialId{static_cast<std::uint32_t>(first + static_cast<std::size_t>(index))};
+    }
+  }
+  return ids;
+}
+
+}  // namespace cellcut

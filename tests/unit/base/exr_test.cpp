@@ -1,0 +1,388 @@
+#include "renderer/base/error.h"
+#include "renderer/base/image_codecs.h"
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <list>
+#include <sys/resource.h>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStdIO.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cellcut {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::byte> bytesOf(const Imf::StdOSStream& stream) {
+  const std::string text = stream.str();
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Value of a channel at a pixel of the data window; small integers, exact in half.
+float pattern(int channel, int x, int y) {
+  return static_cast<float>(100 * channel + 10 * (y % 10) + x % 10);
+}
+
+/// A frame of one pattern per channel, in float, that covers `window`.
+class Frame {
+ public:
+  Frame(const Imath::Box2i& window, std::initializer_list<const char*> channels) : window_(window) {
+    int index = 0;
+    for (const char* name : channels) insert(name, ++index);
+  }
+  const Imf::FrameBuffer& buffer() const { return buffer_; }
+
+ private:
+  void insert(const char* name, int index) {
+    const int width = window_.max.x - window_.min.x + 1;
+    auto& values = values_.emplace_back();
+    for (int y = window_.min.y; y <= window_.max.y; ++y) {
+      for (int x = window_.min.x; x <= window_.max.x; ++x) values.push_back(pattern(index, x, y));
+    }
+    buffer_.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), window_, sizeof(float),
+                                          sizeof(float) * static_cast<std::size_t>(width)));
+  }
+  Imath::Box2i window_;
+  std::list<std::vector<float>> values_;
+  Imf::FrameBuffer buffer_;
+};
+
+void addChannels(Imf::Header& header, std::initializer_list<const char*> channels, Imf::PixelType type = Imf::FLOAT) {
+  for (const char* name : channels) header.channels().insert(name, Imf::Channel(type));
+}
+
+std::vector<std::byte> scanLines(const Imf::Header& header, std::initializer_list<const char*> channels) {
+  Imf::StdOSStream stream;
+  {
+    const Frame frame(header.dataWindow(), channels);
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame.buffer());
+    const Imath::Box2i& window = header.dataWindow();
+    file.writePixels(window.max.y - window.min.y + 1);
+  }
+  return bytesOf(stream);
+}
+
+void expectPattern(const ImageRgb& image) {
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      ASSERT_EQ(image.at(x, y), Vec3(pattern(1, x, y), pattern(2, x, y), pattern(3, x, y))) << x << " " << y;
+    }
+  }
+}
+
+std::string messageOf(std::span<const std::byte> encoded) {
+  try {
+    decodeExr(encoded, "picture");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ExrReader, ReadsEveryCompression) {
+  for (int c = 0; c < Imf::NUM_COMPRESSION_METHODS; ++c) {
+    const auto compression = static_cast<Imf::Compression>(c);
+    if (compression == Imf::B44_COMPRESSION || compression == Imf::B44A_COMPRESSION) continue;  // below
+    if (compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION) continue;
+    Imf::Header header(33, 17);
+    header.compression() = compression;
+    addChannels(header, {"R", "G", "B"});
+    expectPattern(decodeExr(scanLines(header, {"R", "G", "B"}), "compressed"));
+  }
+}
+
+TEST(ExrReader, ReadsLossyCompressions) {
+  for (const auto compression :
+       {Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+    Imf::Header header(33, 17);
+    header.compression() = compression;
+    addChannels(header, {"R", "G", "B"}, Imf::FLOAT);
+    const ImageRgb image = decodeExr(scanLines(header, {"R", "G", "B"}), "compressed");
+    EXPECT_NEAR(image.at(5, 5).y, pattern(2, 5, 5), 10) << "compression " << compression;  // its neighbours' spread
+  }
+}
+
+TEST(ExrReader, ReadsPixelTypes) {
+  // HALF slices would need half values to write from; UINT is what the library converts on reading just the same.
+  Imf::Header header(9, 9);
+  addChannels(header, {"R", "G", "B"}, Imf::UINT);
+  Imf::StdOSStream stream;
+  std::vector<std::uint32_t> values(81, 4000000000u);
+  {
+    Imf::OutputFile file(stream, header, 0);
+    Imf::FrameBuffer frame;
+    for (const char* name : {"R", "G", "B"}) {
+      frame.insert(name, Imf::Slice::Make(Imf::UINT, values.data(), header.dataWindow(), 4, 36));
+    }
+    file.setFrameBuffer(frame);
+    file.writePixels(9);
+  }
+  EXPECT_EQ(decodeExr(bytesOf(stream), "uint").at(8, 8), Vec3(4e9f));
+}
+
+TEST(ExrReader, ReadsTiles) {
+  Imf::Header header(50, 30);
+  header.setTileDescription(Imf::TileDescription(16, 8, Imf::MIPMAP_LEVELS));
+  addChannels(header, {"R", "G", "B"});
+  Imf::StdOSStream stream;
+  {
+    const Frame frame(header.dataWindow(), {"R", "G", "B"});
+    Imf::TiledOutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame.buffer());
+    for (int level = 0; level < file.numLevels(); ++level) {
+      file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+    }
+  }
+  const ImageRgb image = decodeExr(bytesOf(stream), "tiles");
+  ASSERT_EQ(image.width(), 50);
+  ASSERT_EQ(image.height(), 30);
+  expectPattern(image);
+}
+
+TEST(ExrReader, LuminanceBecomesGrey) {
+  Imf::Header header(3, 2);
+  addChannels(header, {"Y"});
+  EXPECT_EQ(decodeExr(scanLines(header, {"Y"}), "grey").at(2, 1), Vec3(pattern(1, 2, 1)));
+}
+
+TEST(ExrReader, IgnoresOtherLayers) {
+  Imf::Header header(4, 4);
+  addChannels(header, {"R", "G", "B", "A", "albedo.R", "normal.X", "Z"});
+  expectPattern(decodeExr(scanLines(header, {"R", "G", "B", "A", "albedo.R", "normal.X", "Z"}), "layers"));
+}
+
+TEST(ExrReader, PictureIsTheDisplayWindow) {
+  Imf::Header header(Imath::Box2i({-2, -3}, {7, 6}), Imath::Box2i({-4, 2}, {3, 20}));
+  addChannels(header, {"R", "G", "B"});
+  const ImageRgb image = decodeExr(scanLines(header, {"R", "G", "B"}), "crop");
+  ASSERT_EQ(image.width(), 10);
+  ASSERT_EQ(image.height(), 10);
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      const bool stored = x - 2 <= 3 && y - 3 >= 2;
+      EXPECT_EQ(image.at(x, y).x, stored ? pattern(1, x - 2, y - 3) : 0) << x << " " << y;
+    }
+  }
+}
+
+TEST(ExrReader, ReadsTheFirstPartThatHasColor) {
+  std::vector<Imf::Header> headers(3, Imf::Header(5, 4));
+  const char* names[] = {"depth", "beauty", "later"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    headers[i].setName(names[i]);
+    headers[i].setType(Imf::SCANLINEIMAGE);
+  }
+  addChannels(headers[0], {"Z"});
+  addChannels(headers[1], {"R", "G", "B"});
+  addChannels(headers[2], {"Y"});
+  Imf::StdOSStream stream;
+  {
+    Imf::MultiPartOutputFile file(stream, headers.data(), 3, false, 0);
+    const Frame depth(headers[0].dataWindow(), {"Z"}), beauty(headers[1].dataWindow(), {"R", "G", "B"}),
+        later(headers[2].dataWindow(), {"Y"});
+    const Frame* frames[] = {&depth, &beauty, &later};
+    for (int i = 0; i < 3; ++i) {
+      Imf::OutputPart part(file, i);
+      part.setFrameBuffer(frames[i]->buffer());
+      part.writePixels(4);
+    }
+  }
+  expectPattern(decodeExr(bytesOf(stream), "parts"));
+}
+
+TEST(ExrReader, RefusesPicturesWithoutColor) {
+  Imf::Header prefixed(2, 2), chroma(2, 2), partial(2, 2);
+  addChannels(prefixed, {"diffuse.R", "diffuse.G", "diffuse.B"});
+  addChannels(chroma, {"Y", "RY", "BY"});
+  addChannels(partial, {"R", "G"});
+  EXPECT_THAT(messageOf(scanLines(prefixed, {"diffuse.R", "diffuse.G", "diffuse.B"})), HasSubstr("prefix"));
+  EXPECT_THAT(messageOf(scanLines(chroma, {"Y", "RY", "BY"})), HasSubstr("R, G and B"));
+  EXPECT_THAT(messageOf(scanLines(partial, {"R", "G"})), HasSubstr("R, G and B"));
+}
+
+TEST(ExrReader, ReadsPlainPicturesHoweverWellTheyCompress) {
+  // The check against giants must not refuse a picture of one colour, which packs best of all.
+  for (int c = 0; c < Imf::NUM_COMPRESSION_METHODS; ++c) {
+    Imf::Header header(2048, 512);
+    header.compression() = static_cast<Imf::Compression>(c);
+    addChannels(header, {"R", "G", "B"}, Imf::HALF);
+    Imf::StdOSStream stream;
+    std::vector<std::uint16_t> blackRow(2048);
+    {
+      Imf::FrameBuffer frame;
+      for (const char* name : {"R", "G", "B"}) {  // all rows are the same one
+        frame.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(blackRow.data()), 2, 0));
+      }
+      Imf::OutputFile file(stream, header, 0);
+      file.setFrameBuffer(frame);
+      file.writePixels(512);
+    }
+    EXPECT_EQ(messageOf(bytesOf(stream)), "no error") << "compression " << c;
+  }
+}
+
+/// A small valid file, to be damaged.
+std::vector<std::byte> smallFile() {
+  Imf::Header header(8, 8);
+  header.compression() = Imf::NO_COMPRESSION;
+  addChannels(header, {"R", "G", "B"});
+  return scanLines(header, {"R", "G", "B"});
+}
+
+std::size_t find(const std::vector<std::byte>& file, std::string_view text) {
+  const std::size_t at = asText(file).find(text);
+  EXPECT_NE(at, std::string_view::npos);
+  return at;
+}
+
+void put32(std::vector<std::byte>& file, std::size_t at, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) file[at + i] = static_cast<std::byte>(value >> (8 * i));
+}
+
+TEST(ExrReader, RefusesAttributeLargerThanTheFile) {
+  std::vector<std::byte> file = smallFile();
+  put32(file, find(file, "screenWindowWidth") + 17 + 1 + 6, 0x7fffffff);  // name, its end, "float" and its end
+  EXPECT_THAT(messageOf(file), HasSubstr("header reaches past"));
+}
+
+TEST(ExrReader, RefusesWindowsThatTheFileCannotHold) {
+  for (const char* name : {"dataWindow", "displayWindow"}) {
+    std::vector<std::byte> file = smallFile();
+    const std::size_t at = find(file, name) + std::strlen(name) + 1 + 6 + 4;  // its end, "box2i" and its end, the size
+    put32(file, at + 8, (1 << 24) - 1);
+    EXPECT_THAT(messageOf(file), HasSubstr("16777216 x 8")) << name;
+    put32(file, at + 8, 0xffffffff);  // ends left of where it begins
+    EXPECT_NE(messageOf(file), "no error") << name;
+    put32(file, at, 0x80000000);
+    put32(file, at + 8, 0x7fffffff);
+    EXPECT_NE(messageOf(file), "no error") << name;
+  }
+}
+
+TEST(ExrReader, RefusesTilesFarLargerThanThePicture) {
+  Imf::Header header(8, 8);
+  header.setTileDescription(Imf::TileDescription(16, 8));
+  addChannels(header, {"R", "G", "B"});
+  Imf::StdOSStream stream;
+  {
+    const Frame frame(header.dataWindow(), {"R", "G", "B"});
+    Imf::TiledOutputFile output(stream, header, 0);
+    output.setFrameBuffer(frame.buffer());
+    output.writeTile(0, 0);
+  }
+  std::vector<std::byte> file = bytesOf(stream);
+  const std::size_t at = find(file, "tiledesc") + 9 + 4;
+  ASSERT_EQ(messageOf(file), "no error");
+  put32(file, at, 1 << 14);
+  put32(file, at + 4, 1 << 14);
+  EXPECT_THAT(messageOf(file), HasSubstr("tiles"));
+}
+
+TEST(ExrReader, FileCutOffAnywhereIsRefused) {
+  const std::vector<std::byte> whole = smallFile();
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_THROW(decodeExr(std::span(whole).first(size), "cut"), InputError) << size;
+  }
+}
+
+TEST(ExrReader, MessagesAreOneLine) {
+  std::vector<std::byte> file = smallFile();
+  file[find(file, "lineOrder") + 10] = std::byte{'\n'};  // of its type, which the library's message quotes
+  const std::string message = messageOf(file);
+  EXPECT_NE(message, "no error");
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(ExrWriter, NamesLayersAndKeepsMetadata) {
+  LayeredImage image{2, 1, {}, {{"strategy", "power"}, {"spp", "16"}}};
+  image.layers.push_back({"", {"R", "G", "B"}, {1, 2, 3, 4, 5, 6}});
+  image.layers.push_back({"normal", {"X", "Y", "Z"}, {7, 8, 9, 10, 11, 12}});
+  image.layers.push_back({"depth", {"Z"}, {13, 14}});
+  const std::vector<std::byte> encoded = encodeExr(image);
+  Imf::StdISStream stream;
+  stream.str(std::string(asText(encoded)));
+  Imf::InputFile file(stream, 0);
+  EXPECT_EQ(file.header().typedAttribute<Imf::StringAttribute>("strategy").value(), "power");
+  EXPECT_EQ(file.header().typedAttribute<Imf::StringAttribute>("spp").value(), "16");
+  EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+
+  const std::map<std::string, std::array<float, 2>> expected{
+      {"R", {1, 4}},         {"G", {2, 5}},         {"B", {3, 6}},        {"normal.X", {7, 10}},
+      {"normal.Y", {8, 11}}, {"normal.Z", {9, 12}}, {"depth.Z", {13, 14}}};
+  std::map<std::string, std::array<float, 2>> read;
+  Imf::FrameBuffer frame;
+  for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) {
+    EXPECT_EQ(c.channel().type, Imf::FLOAT);
+    frame.insert(c.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(read[c.name()].data()), 4, 8));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(0);
+  EXPECT_EQ(read, expected);
+}
+
+double peakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+class ExrCorpus : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(CELLCUT_CORPUS)) GTEST_SKIP() << "no corpus beside this checkout";
+  }
+};
+
+TEST_F(ExrCorpus, DamagedFilesAreReadOrRefused) {
+  std::size_t files = 0;
+  const double before = peakMegabytes();
+  for (const auto& entry : std::filesystem::directory_iterator(CELLCUT_CORPUS "/exr-damaged")) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      readImage(entry.path());
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::StartsWith(entry.path().string()));
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(seconds.count(), 2) << entry.path();  // the limit for hostile files
+    ++files;
+  }
+  EXPECT_GT(files, 80u);
+  EXPECT_LT(peakMegabytes() - before, 512);  // likewise
+}
+
+TEST_F(ExrCorpus, EnvironmentsHaveLight) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CELLCUT_CORPUS "/environments")) {
+    const ImageRgb image = readImage(entry.path());
+    EXPECT_EQ(image.width(), 512);
+    EXPECT_EQ(image.height(), 256);
+    glm::dvec3 sum(0.0);
+    for (const Vec3& pixel : image) sum += glm::dvec3(pixel);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_TRUE(std::isfinite(sum[c])) << entry.path();
+      EXPECT_GT(sum[c], 0) << entry.path();
+    }
+    ++files;
+  }
+  EXPECT_EQ(files, 6u);
+}
+
+}  // namespace
+}  // namespace cellcut

@@ -1,0 +1,158 @@
+#include "renderer/base/image_io.h"
+
+#include "renderer/base/error.h"
+#include "renderer/base/rng.h"
+#include "renderer/base/tone_map.h"
+#include "tests/support/temporary_directory.h"
+
+#include <bit>
+#include <string_view>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cellcut {
+namespace {
+
+using test::TemporaryDirectory;
+using testing::HasSubstr;
+
+std::vector<std::byte> bytesOf(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+ImageRgb noise(int width, int height) {
+  Rng rng(7);
+  ImageRgb image(width, height);
+  for (Vec3& pixel : image) pixel = {rng.uniform(0, 10), rng.uniform(-1, 1), rng.uniform(0, 1e-30f)};
+  return image;
+}
+
+void expectSame(const ImageRgb& a, const ImageRgb& b) {
+  ASSERT_EQ(a.width(), b.width());
+  ASSERT_EQ(a.height(), b.height());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(std::bit_cast<std::uint32_t>(a[i][c]), std::bit_cast<std::uint32_t>(b[i][c]));
+  }
+}
+
+LayeredImage oneLayer(const ImageRgb& image) {
+  LayeredImage layered{image.width(), image.height(), {{"", {"R", "G", "B"}, {}}}, {}};
+  for (const Vec3& p : image) layered.layers[0].values.insert(layered.layers[0].values.end(), {p.x, p.y, p.z});
+  return layered;
+}
+
+std::string messageOf(std::span<const std::byte> encoded) {
+  try {
+    decodeImage(encoded, "picture");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ImageIo, PfmKeepsEveryBit) {
+  const TemporaryDirectory directory;
+  ImageRgb image = noise(5, 3);
+  image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
+  writePfm(directory / "a.pfm", image);
+  expectSame(readImage(directory / "a.pfm"), image);
+}
+
+TEST(ImageIo, ExrKeepsEveryBit) {
+  const TemporaryDirectory directory;
+  ImageRgb image = noise(37, 21);
+  image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
+  writeExr(directory / "a.exr", oneLayer(image));
+  expectSame(readImage(directory / "a.exr"), image);
+}
+
+TEST(ImageIo, PngHasToneMappedPixels) {
+  const TemporaryDirectory directory;
+  ImageRgb image(2, 2);
+  image.at(1, 0) = {0.1f, 0.2f, 0.4f};
+  image.at(0, 1) = {std::numeric_limits<float>::quiet_NaN(), 0.4f, -1};
+  writePng(directory / "a.png", image, 2);
+  const ImageRgba8 read = decodeImage8(readFile(directory / "a.png", 1 << 20), "a.png");
+  ASSERT_EQ(read.width(), 2);
+  ASSERT_EQ(read.height(), 2);
+  const Vec3 shown = toneMap({0.2f, 0.4f, 0.8f});
+  const auto rounded = [](float c) { return static_cast<int>(std::lround(255 * c)); };
+  EXPECT_EQ(glm::ivec4(read.at(1, 0)), glm::ivec4(rounded(shown.x), rounded(shown.y), rounded(shown.z), 255));
+  EXPECT_EQ(glm::ivec4(read.at(0, 1)), glm::ivec4(0, rounded(shown.z), 0, 255));
+  EXPECT_EQ(glm::ivec4(read.at(0, 0)), glm::ivec4(0, 0, 0, 255));
+}
+
+TEST(ImageIo, Png8KeepsColorAndAlpha) {
+  ImageRgba8 image(7, 5);
+  Rng rng(3);
+  for (auto& pixel : image) {
+    for (int c = 0; c < 4; ++c) pixel[c] = static_cast<std::uint8_t>(rng.below(256));
+  }
+  const ImageRgba8 read = decodeImage8(encodePng(image), "noise");
+  ASSERT_EQ(read.size(), image.size());
+  for (std::size_t i = 0; i < image.size(); ++i) EXPECT_EQ(glm::ivec4(read[i]), glm::ivec4(image[i])) << i;
+}
+
+TEST(ImageIo, RefusesWhatIsNoPicture) {
+  EXPECT_THAT(messageOf(bytesOf("")), HasSubstr("picture: is no"));
+  EXPECT_THAT(messageOf(bytesOf("lamp")), HasSubstr("is no OpenEXR"));
+  EXPECT_THROW(decodeImage8(bytesOf("lamp"), "texture"), InputError);
+  EXPECT_THROW(decodeImage8({}, "texture"), InputError);
+}
+
+TEST(ImageIo, Png8CutOffAnywhereIsRefused) {
+  const std::vector<std::byte> whole = encodePng(ImageRgba8(16, 16, {1, 2, 3, 4}));
+  constexpr std::size_t kEndChunk = 12;  // nothing is missing when only the end mark is
+  for (std::size_t size = 0; size < whole.size() - kEndChunk; ++size) {
+    EXPECT_THROW(decodeImage8(std::span(whole).first(size), "cut"), InputError) << size;
+  }
+}
+
+TEST(ImageIo, Png8RefusesSizeThatItsBytesCannotHold) {
+  std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
+  png[17] = std::byte{0x10};  // width 0x00100010
+  png[21] = std::byte{0x01};
+  EXPECT_THROW(decodeImage8(png, "giant"), InputError);
+}
+
+TEST(ImageIo, Png8RefusesChunkPastTheFile) {
+  std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
+  png[33] = std::byte{0x40};  // length of the first chunk after the header: 1 GB
+  try {
+    decodeImage8(png, "long");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("chunk"));
+  }
+}
+
+TEST(Pfm, ReadsBothByteOrdersFromTheBottomRow) {
+  // Two grey pixels above each other, 1 at the bottom and 2 at the top.
+  const auto little = bytesOf(std::string_view("Pf\n1 2\n-1\n\0\0\x80\x3f\0\0\0\x40", 18));
+  const auto big = bytesOf(std::string_view("Pf\n1 2\n1\n\x3f\x80\0\0\x40\0\0\0", 17));
+  for (const auto& encoded : {little, big}) {
+    const ImageRgb image = decodeImage(encoded, "grey");
+    ASSERT_EQ(image.height(), 2);
+    EXPECT_EQ(image.at(0, 0), Vec3(2.0f));
+    EXPECT_EQ(image.at(0, 1), Vec3(1.0f));
+  }
+}
+
+TEST(Pfm, ScaleMultiplies) {
+  const ImageRgb image = decodeImage(bytesOf(std::string_view("Pf 1 1 -2.5 \0\0\x80\x3f", 16)), "scaled");
+  EXPECT_EQ(image.at(0, 0), Vec3(2.5f));
+}
+
+TEST(Pfm, RefusesBadHeaders) {
+  for (const char* text :
+       {"PF", "PF\n", "PF\n1", "PF\n1 1\n", "PF\n1 1\n-1", "PF\n-1 1\n-1\n", "PF\n0 1\n-1\n", "PF\nx 1\n-1\n",
+        "PF\n1 1\n0\n", "PF\n1 1\nnan\n", "PF\n1 1\n-1\n123456789ab", "PF\n99999999999999999999 1\n-1\n",
+        "PF\n9223372036854775807 9223372036854775807\n-1\n", "PF\n16384 16385\n-1\n"}) {
+    EXPECT_THAT(messageOf(bytesOf(text)), HasSubstr("picture: ")) << text;
+  }
+}
+
+}  // namespace
+}  // namespace cellcut
