@@ -36,7 +36,6 @@ class CellCutSampler final : public LightSampler {
   /// What sampling fills in: caches of a deterministic function, so that const members stay free of visible effects.
   mutable CellTable cells_;
   mutable std::atomic<std::uint64_t> makeNanoseconds_{0};
-  double buildSeconds_ = 0;
 };
 
 }  // namespace cellcut

@@ -15,12 +15,18 @@ float meanDistance(float distance, float rho) {
 
 }  // namespace
 
-LightTrees::LightTrees(const Lights& lights) : LightTrees(lights, intensityExponent(lights)) {}
+LightTrees::LightTrees(const Lights& lights)
+    : LightTrees(lights, intensityExponent(lights), std::chrono::steady_clock::now()) {}
 
-LightTrees::LightTrees(const Lights& lights, int exponent)
+LightTrees::LightTrees(const Lights& lights, int exponent, std::chrono::steady_clock::time_point start)
     : local(localBounds(lights, exponent), LightId{0}, false),
       distant(distantBounds(lights, exponent), lights.idOf(LightKind::kDirectional, 0), true),
-      firstDistant(lights.idOf(LightKind::kDirectional, 0)) {}
+      firstDistant(lights.idOf(LightKind::kDirectional, 0)),
+      buildSeconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
+
+TreeStatistics LightTrees::statistics() const {
+  return {local.nodes().size() + distant.nodes().size(), std::max(local.depth(), distant.depth()), buildSeconds_, bytes()};
+}
 
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
   const LightTreeNode& node = tree.node(id);

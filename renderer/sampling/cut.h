@@ -6,7 +6,9 @@
 
 #include "renderer/lights/light_tree.h"
 #include "renderer/sampling/cut_weights.h"
+#include "renderer/sampling/sampler_settings.h"
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,11 +23,13 @@ struct LightTrees {
   LightTree distant;
   LightId firstDistant;  ///< lights from this number on are distant
 
+  TreeStatistics statistics() const;
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }
 
  private:
-  LightTrees(const Lights& lights, int exponent);
+  LightTrees(const Lights& lights, int exponent, std::chrono::steady_clock::time_point start);
+  double buildSeconds_;
 };
 
 struct CutSettings {

@@ -1,5 +1,6 @@
 #include "renderer/sampling/cut_choice.h"
 
+#include <array>
 #include <cassert>
 
 namespace cellcut {
@@ -7,13 +8,14 @@ namespace {
 
 constexpr double kAlmostOne = 1 - 0x1p-53;
 
+/// Weights of a cut at a point; on the stack, no allocation.
 struct Weights {
-  alignas(64) std::array<float, kMaxCutSize> weight;
-  std::array<float, kMaxCutSize / kClusterBlock> blockSum;
+  alignas(64) std::array<float, static_cast<std::size_t>(kMaxCutSize)> weight;
+  std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock> blockSum;
   double sum;
 
   Weights(const Cut& cut, const Vec3& n) : sum(clusterWeights(cut.clusters(), n, weight.data(), blockSum.data())) {
-    assert(cut.size() <= kMaxCutSize);
+    assert(cut.size() <= weight.size());
   }
 };
 

@@ -7,12 +7,6 @@
 
 namespace cellcut {
 
-/// How a light is chosen inside a cluster.
-enum class InCluster : std::uint8_t {
-  kIntensity,  ///< proportional to J (Vévoda and Křivánek 2016)
-  kDescent,    ///< down the tree by importance at the point (Conty Estevez and Kulla 2018)
-};
-
 /// Importance of a node at a point: its estimate there × receiverCosine. 0 only if no light of it can contribute.
 float nodeImportance(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point);
 
@@ -29,8 +23,5 @@ double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Shad
 std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point,
                                       double u);
 float pmfInCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point, LightId light);
-
-/// Weights lie on the stack.
-inline constexpr std::size_t kMaxCutSize = 4096;
 
 }  // namespace cellcut

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "renderer/lights/lights.h"
+#include "renderer/sampling/sampler_settings.h"
 #include "renderer/sampling/strategy.h"
 
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace cellcut {
 
@@ -33,9 +35,13 @@ class LightSampler {
   virtual float pmf(const ShadingPoint& point, LightId light) const = 0;
   /// Memory of its tables.
   virtual std::size_t bytes() const = 0;
+  /// What was built so far. Not while samples are drawn.
+  virtual SamplerStatistics statistics() const { return {}; }
 };
 
 /// Builds a strategy over lights that outlive it.
-std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights);
+/// \param pilot  points like those that it will be asked at, a fixed sample: they size the grid of cells
+std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights, const SamplerSettings& settings = {},
+                                               std::span<const Vec3> pilot = {});
 
 }  // namespace cellcut

@@ -9,7 +9,7 @@
 
 namespace cellcut {
 
-enum class Strategy : std::uint8_t { kUniform, kPower, kProportional };
+enum class Strategy : std::uint8_t { kUniform, kPower, kProportional, kCellCut, kPointCut, kLightTree };
 
 struct StrategyName {
   Strategy strategy;
@@ -21,6 +21,9 @@ inline constexpr std::array kStrategies{
     StrategyName{Strategy::kUniform, "uniform", "every light with the same probability"},
     StrategyName{Strategy::kPower, "power", "lights by their flux, wherever they are"},
     StrategyName{Strategy::kProportional, "proportional", "lights by their unoccluded irradiance at the point; O(N)"},
+    StrategyName{Strategy::kCellCut, "cell-cut", "a cut through the light trees per grid cell, lights by its cached estimates"},
+    StrategyName{Strategy::kPointCut, "point-cut", "a cut found anew at every point, without cells"},
+    StrategyName{Strategy::kLightTree, "light-tree", "one random descent through the light tree"},
 };
 
 constexpr std::string_view nameOf(Strategy strategy) { return kStrategies[static_cast<std::size_t>(strategy)].name; }

@@ -2,6 +2,7 @@
 
 #include "renderer/scene/camera.h"
 #include "renderer/trace/integrator.h"
+#include "renderer/trace/pilot.h"
 
 #include <cassert>
 
@@ -56,7 +57,9 @@ Renderer::State::State(const Scene& s, const RenderSettings& r)
       film(r.width, r.height, r.auxiliary),
       accel(arena.execute([&] { return Accel(s); })),
       lights(arena.execute([&] { return Lights(s); })),
-      sampler(arena.execute([&] { return makeLightSampler(r.strategy, lights); })) {}
+      sampler(arena.execute([&] {
+        return makeLightSampler(r.strategy, lights, r.sampler, pilotVertices(s, accel, s.cameras[r.camera], r.maxDepth));
+      })) {}
 
 void Renderer::State::renderTile(const tbb::blocked_range2d<int>& tile, const PathContext& context, AtomicCounts& counts,
                                  const std::atomic<bool>& cancel) {
@@ -107,6 +110,7 @@ const Film& Renderer::film() const { return state_->film; }
 const RenderSettings& Renderer::settings() const { return state_->settings; }
 RayCounts Renderer::rays() const { return state_->rays; }
 std::uint64_t Renderer::droppedSamples() const { return state_->dropped; }
+SamplerStatistics Renderer::samplerStatistics() const { return state_->sampler->statistics(); }
 int Renderer::threads() const { return state_->arena.max_concurrency(); }
 
 LightCounts Renderer::lightCounts() const { return state_->lights.counts(); }

@@ -4,6 +4,7 @@
 
 #include "renderer/base/pixel_sampler.h"
 #include "renderer/lights/lights.h"
+#include "renderer/sampling/sampler_settings.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/film.h"
@@ -19,7 +20,8 @@ struct RenderSettings {
   int width = 1280;
   int height = 720;
   int maxDepth = 8;       ///< path vertices that scatter: 1 is direct light only; ≥ 0
-  Strategy strategy = Strategy::kProportional;
+  Strategy strategy = Strategy::kCellCut;
+  SamplerSettings sampler;
   PixelSampling sampling = PixelSampling::kSobol;
   std::uint64_t seed = 0;
   int threads = 0;        ///< 0: one per hardware thread
@@ -60,6 +62,7 @@ class Renderer {
   /// Light samples that had to be given up, all committed passes: the shading point coincides with a point light.
   std::uint64_t droppedSamples() const;
   MemoryUse memory() const;
+  SamplerStatistics samplerStatistics() const;
   /// Threads that passes run on.
   int threads() const;
 

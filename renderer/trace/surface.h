@@ -1,0 +1,27 @@
+/// \file surface.h
+/// Where a ray met a triangle.
+#pragma once
+
+#include "renderer/lights/triangle_light.h"
+#include "renderer/scene/material.h"
+#include "renderer/trace/accel.h"
+
+namespace cellcut {
+
+struct SurfacePoint {
+  SurfaceCoordinates at;
+  Vec3 p;
+  Vec3 error;   ///< bound on the rounding error of p, per axis
+  Vec3 normal;  ///< unit geometric normal, front side
+};
+
+inline SurfacePoint surfaceAt(const Scene& scene, const Hit& hit) {
+  const Mesh& mesh = scene.meshes[indexOf(hit.mesh)];
+  const Triangle& t = mesh.triangles[hit.triangle];
+  const Vec3 &v0 = mesh.positions[t.x], &v1 = mesh.positions[t.y], &v2 = mesh.positions[t.z];
+  const float b0 = 1 - hit.barycentric.x - hit.barycentric.y;
+  const Vec3 p = b0 * v0 + hit.barycentric.x * v1 + hit.barycentric.y * v2;
+  return {{&mesh, hit.triangle, hit.barycentric}, p, triangleError(v0, v1, v2), triangleGeometry(mesh, hit.triangle).normal};
+}
+
+}  // namespace cellcut
