@@ -215,9 +215,9 @@ class LampPlanner {
   void build(float flux);
 
  private:
-  /// Log-uniform over four decades; a larger lamp is likelier to be a strong one.
-  void add(float area, Tint tint, std::size_t lights, std::function<void(Glow)> build) {
-    lamps_.push_back({std::sqrt(area) * std::pow(10.0, -4 * rng_.uniformDouble()), tint, std::move(build)});
+  /// Log-uniform over `decades`; a larger lamp is likelier to be a strong one.
+  void add(float area, Tint tint, std::size_t lights, std::function<void(Glow)> build, double decades = 4) {
+    lamps_.push_back({std::sqrt(area) * std::pow(10.0, -decades * rng_.uniformDouble()), tint, std::move(build)});
     left_ -= lights;
   }
   Tint whiteTint() {
@@ -256,19 +256,23 @@ class LampPlanner {
 void LampPlanner::mainLamp() {
   const std::uint32_t kind = rng_.below(4);
   const Tint tint = whiteTint();
+  constexpr double kDecades = 1;  // the lamp that a room is lit by is a strong one
   if (left_ >= 2 * kGlobeLights && kind == 0) {
     const Pose at = ceilingAt(0, 0);
-    add(0.5f, tint, kGlobeLights, [=, this](Glow glow) { addGlobe(palette_, at, 0.65f, 0.22f, glow); });
+    add(
+        0.5f, tint, kGlobeLights, [=, this](Glow glow) { addGlobe(palette_, at, 0.65f, 0.22f, glow); }, kDecades);
   } else if (left_ >= kBulbLights && kind <= 1) {
     const Pose at = ceilingAt(0, 0);
     const Paint shade = rng_.uniform() < 0.5f ? Paint::kShade : Paint::kCopper;
-    add(0.1f, tint, kBulbLights, [=, this](Glow glow) { addPendant(palette_, at, 0.8f, shade, glow); });
+    add(
+        0.1f, tint, kBulbLights, [=, this](Glow glow) { addPendant(palette_, at, 0.8f, shade, glow); }, kDecades);
   } else if (left_ >= kPanelPaneLights) {
     const std::size_t panes = std::min<std::size_t>(left_ / kPanelPaneLights, 1 + rng_.below(3));
     const Pose at = ceilingAt(rng_.uniform(-0.3f, 0.3f), rng_.uniform(-0.3f, 0.3f));
-    const Vec2 size(0.5f * static_cast<float>(panes), 0.5f);
-    add(size.x * size.y, tint, panes * kPanelPaneLights,
-        [=, this](Glow glow) { addCeilingPanel(palette_, at, size, static_cast<int>(panes), glow); });
+    const Vec2 size(0.6f * static_cast<float>(panes), 1.2f);
+    add(
+        size.x * size.y, tint, panes * kPanelPaneLights,
+        [=, this](Glow glow) { addCeilingPanel(palette_, at, size, static_cast<int>(panes), glow); }, kDecades);
   }
 }
 

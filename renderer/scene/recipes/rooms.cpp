@@ -16,7 +16,7 @@ constexpr std::size_t kLightsPerRoom = 60;
 constexpr std::size_t kMostRooms = 17'000;  ///< above a million lights rooms get more lamps, not their number larger
 constexpr std::size_t kFullyFurnishedRooms = 1500;
 constexpr std::size_t kRoomsWithPunctualLights = 5000;
-constexpr float kRadiance = 0.25f;  ///< of a room of mean brightness, W/(m² sr)
+constexpr float kRadiance = 0.4f;  ///< of a room of mean brightness, W/(m² sr)
 
 /// Independent decisions of one seed.
 enum Stream : std::uint64_t { kWidths, kDepths, kThroughDoor, kSideDoor, kThroughLine, kSideLine, kInterior, kDecor };
@@ -276,7 +276,7 @@ void buildRooms(GlbBuilder& builder, std::size_t lights, std::uint64_t seed) {
     const std::optional<Vec2> camera = i == 0 ? std::optional(Vec2(room.centre().x, room.upper.z)) : std::nullopt;
     furnishRoom(palette, room, clutter, camera, rng);
     const std::size_t share = lights / rooms.size() + (i < lights % rooms.size() ? 1 : 0);
-    const float brightness = i == 0 ? 1.0f : std::pow(10.0f, rng.uniform(-0.6f, 0.3f));
+    const float brightness = i == 0 ? 1.0f : std::pow(10.0f, rng.uniform(-0.5f, 0.3f));
     if (share > 0) lightRoom(palette, room, share, kRadiance * brightness, i < kRoomsWithPunctualLights, rng);
   }
 }

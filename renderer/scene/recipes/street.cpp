@@ -223,8 +223,8 @@ void Street::addLampPosts() {
     ++lit;
     const Tint tint = rng_.uniform() < 0.8f ? Tint::kWarm : Tint::kNeutral;
     const float strength = rng_.uniform(0.5f, 1.6f);
-    builder_.addSpot(foot.point({1.55f, kHeight - 0.26f, 0}), {0, -1, 0}, palette_.intensity(tint, 95 * strength), 0.7f,
-                     1.35f);
+    builder_.addSpot(foot.point({1.55f, kHeight - 0.26f, 0}), {0, -1, 0}, palette_.intensity(tint, 190 * strength),
+                     0.7f, 1.35f);
     if (total_ >= 100 && spend(2)) {
       const float y = kHeight - 0.205f;
       addQuad(palette_.emitter(tint, 40 * strength), foot.point({1.25f, y, -0.1f}), foot.point({1.85f, y, -0.1f}),
@@ -315,7 +315,7 @@ void Street::build() {
   builder_.addCamera("balcony", {-5.9f, 6.5f, 2}, {2, 1.6f, -16}, 0.85f);
   builder_.addCamera("above", {26, 34, 22}, {-1, 2, -24}, 0.75f);
   if (spend(1))
-    builder_.addDirectional({0.45f, -1, -0.35f}, tintColor(Tint::kBlue) * 0.02f + tintColor(Tint::kCool) * 0.05f);
+    builder_.addDirectional({0.45f, -1, -0.35f}, tintColor(Tint::kBlue) * 0.04f + tintColor(Tint::kCool) * 0.10f);
   addGround();
   addLampPosts();
   addFestoons();
