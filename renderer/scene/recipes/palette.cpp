@@ -96,8 +96,11 @@ GlbMaterial describe(Paint paint) {
       return metal("gold", {1.00f, 0.77f, 0.34f}, 0.28f);
     case Paint::kSteel:
       return metal("brushed steel", {0.56f, 0.57f, 0.58f}, 0.42f);
-    case Paint::kCopper:
-      return metal("copper", {0.95f, 0.64f, 0.54f}, 0.35f);
+    case Paint::kCopper: {
+      GlbMaterial copper = metal("copper", {0.95f, 0.64f, 0.54f}, 0.35f);
+      copper.doubleSided = true;  // lamp shades are a thin sheet of it
+      return copper;
+    }
     case Paint::kBlackMetal:
       return metal("black iron", {0.10f, 0.10f, 0.10f}, 0.5f);
     case Paint::kWetAsphalt:

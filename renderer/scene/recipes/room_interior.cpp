@@ -54,6 +54,14 @@ class FloorPlan {
 };
 
 constexpr int kTries = 10;
+constexpr float kWallGap = 0.02f;    ///< between furniture and the wall
+constexpr float kCornerLamp = 0.3f;  ///< distance of a floor lamp from both walls of its corner
+
+/// The two corners at the back of a room, where floor lamps stand.
+std::array<Vec3, 2> lampCorners(const RoomSpace& room) {
+  const float z = room.lower.z + kCornerLamp;
+  return {Vec3{room.lower.x + kCornerLamp, room.lower.y, z}, Vec3{room.upper.x - kCornerLamp, room.lower.y, z}};
+}
 
 /// A free place at a wall, or none.
 std::optional<Pose> placeAtWall(FloorPlan& plan, const RoomSpace& room, Vec2 size, Rng& rng) {
@@ -61,7 +69,7 @@ std::optional<Pose> placeAtWall(FloorPlan& plan, const RoomSpace& room, Vec2 siz
     const RoomWall& wall = room.walls[rng.below(4)];
     const float along = rng.uniform(size.x / 2 + 0.05f, wall.length - size.x / 2 - 0.05f);
     if (wall.open) continue;
-    const Pose pose = wall.left.at({along, 0, 0.02f});
+    const Pose pose = wall.left.at({along, 0, kWallGap});
     if (plan.tryTake(FloorPlan::footprint(pose, size, true))) return pose;
   }
   return std::nullopt;
@@ -118,6 +126,14 @@ class Furnisher {
   void pedestal() {
     if (const auto p = placeFree(plan_, room_, kPedestalFootprint, 0.9f, rng_)) addPedestal(palette_, *p, rng_);
   }
+  void picture() {
+    constexpr Vec2 kFootprint{1.2f, 0.06f};  // of the tallest and widest; keeps it off shelves
+    constexpr float kEyeHeight = 1.55f;
+    if (const auto p = placeAtWall(plan_, room_, kFootprint, rng_)) {
+      const Vec2 size(rng_.uniform(0.5f, 1.1f), rng_.uniform(0.45f, 0.75f));
+      addPicture(palette_, p->at({0, kEyeHeight, -kWallGap}), size, rng_);
+    }
+  }
   void crates() {
     if (const auto p = placeFree(plan_, room_, kCratesFootprint, 1, rng_)) addCrates(palette_, *p, rng_);
   }
@@ -159,6 +175,7 @@ void Furnisher::fullRoom(std::uint32_t kind) {
       for (int i = 0; i < 4; ++i) crates();
       break;
   }
+  for (int i = 0; i < 3; ++i) picture();
 }
 
 void Furnisher::sparseRoom(std::uint32_t kind) {
@@ -187,6 +204,9 @@ void Furnisher::sparseRoom(std::uint32_t kind) {
 void furnishRoom(Palette& palette, const RoomSpace& room, Clutter clutter, std::optional<Vec2> keepClear, Rng& rng) {
   FloorPlan plan(room);
   constexpr float kClear = 1.1f;
+  for (const Vec3& corner : lampCorners(room)) {
+    plan.take(FloorPlan::footprint({corner}, Vec2(2 * kCornerLamp), false));
+  }
   if (keepClear) plan.take({*keepClear - kClear, *keepClear + kClear});
   Furnisher put(palette, room, std::move(plan), rng);
   if (clutter == Clutter::kFull) {
@@ -239,7 +259,7 @@ class LampPlanner {
   void cornerLamp();
   void sconces(const RoomWall& wall);
   void tube(const RoomWall& wall);
-  void pictureOrTriangle(const RoomWall& wall);
+  void triangleLamp(const RoomWall& wall);
   void fairyString(const RoomWall& wall, float height, std::size_t most);
   void spot();
   void lantern();
@@ -278,10 +298,7 @@ void LampPlanner::mainLamp() {
 
 void LampPlanner::cornerLamp() {
   if (left_ < kBulbLights) return;
-  // In the corner beyond which furniture and doors cannot reach: 0.3 m from both walls.
-  const Vec3 half = 0.5f * (room_.upper - room_.lower) - Vec3(0.3f, 0, 0.3f);
-  const Pose at{
-      {room_.centre().x + (rng_.uniform() < 0.5f ? half.x : -half.x), room_.lower.y, room_.centre().z - half.z}};
+  const Pose at{lampCorners(room_)[rng_.below(2)]};
   const Tint tint = whiteTint();
   const float height = rng_.uniform(1.3f, 1.6f);
   add(0.1f, tint, kBulbLights, [=, this](Glow glow) { addFloorLamp(palette_, at, height, Paint::kShade, glow); });
@@ -310,10 +327,10 @@ void LampPlanner::tube(const RoomWall& wall) {
   add(0.1f, partyTint(), kTubeLights, [=, this](Glow glow) { addTube(palette_, at, length, glow); });
 }
 
-void LampPlanner::pictureOrTriangle(const RoomWall& wall) {
+void LampPlanner::triangleLamp(const RoomWall& wall) {
   if (wall.open || left_ < 1) return;
   const auto [from, to] = freeStretch(wall);
-  const Pose at = wall.left.at({from + 0.3f * (to - from), 1.75f, 0});
+  const Pose at = wall.left.at({from + 0.3f * (to - from), 2.15f, 0});
   add(0.03f, rng_.uniform() < 0.5f ? whiteTint() : partyTint(), 1,
       [=, this](Glow glow) { addTriangleLamp(palette_, at, 0.26f, glow); });
 }
@@ -365,7 +382,7 @@ void LampPlanner::spendRest() {
 void LampPlanner::plan(bool punctual) {
   mainLamp();
   if (punctual && left_ > 6) spot();
-  pictureOrTriangle(room_.walls[3]);
+  triangleLamp(room_.walls[3]);
   cornerLamp();
   sconces(room_.walls[0]);
   if (punctual && left_ > 6) lantern();

@@ -8,10 +8,12 @@ namespace cellcut {
 
 namespace {
 
-constexpr float kStorey = 3.4f;
+// All lengths of the shell are multiples of 2⁻⁶ m, so that sums of them are exact and the two sides of a wall meet
+// without a crack, however they are computed.
+constexpr float kStorey = 3.375f;
 constexpr float kCeiling = 3.0f;
-constexpr float kHalfWall = 0.1f;
-constexpr float kSlab = 0.2f;  ///< how far a storey's front reaches below its floor
+constexpr float kHalfWall = 0.125f;
+constexpr float kSlab = 0.1875f;  ///< how far a storey's front reaches below its floor
 constexpr std::size_t kLightsPerRoom = 60;
 constexpr std::size_t kMostRooms = 17'000;  ///< above a million lights rooms get more lamps, not their number larger
 constexpr std::size_t kFullyFurnishedRooms = 1500;
@@ -20,6 +22,10 @@ constexpr float kRadiance = 0.4f;  ///< of a room of mean brightness, W/(m² sr)
 
 /// Independent decisions of one seed.
 enum Stream : std::uint64_t { kWidths, kDepths, kThroughDoor, kSideDoor, kThroughLine, kSideLine, kInterior, kDecor };
+
+float snapped(float length) {
+  return std::round(length * 64) / 64;
+}
 
 struct RoomIndex {
   int column, row, storey;  ///< row 0 is the open front, further rows lie towards −z
@@ -66,21 +72,21 @@ Plan::Plan(std::size_t lights, std::uint64_t seed) : seed_(seed) {
   const int columns = std::max(3, static_cast<int>(std::ceil(rooms / (storeys_ * rows))));
   Rng widths(hashOf(seed, std::uint64_t{kWidths}));
   x_.push_back(0);
-  for (int i = 0; i < columns; ++i) x_.push_back(x_.back() + widths.uniform(5.0f, 6.8f));
-  const float middle = 0.5f * x_.back();
+  for (int i = 0; i < columns; ++i) x_.push_back(x_.back() + snapped(widths.uniform(5.0f, 6.8f)));
+  const float middle = snapped(0.5f * x_.back());
   for (float& x : x_) x -= middle;
   Rng depths(hashOf(seed, std::uint64_t{kDepths}));
   z_.push_back(0);
-  for (int i = 0; i < rows; ++i) z_.push_back(z_.back() - depths.uniform(5.0f, 6.8f));
+  for (int i = 0; i < rows; ++i) z_.push_back(z_.back() - snapped(depths.uniform(5.0f, 6.8f)));
 }
 
 std::optional<Doorway> Plan::door(Stream exists, Stream line, RoomIndex at, RoomIndex lineOf, float middle,
                                   bool always) const {
   Rng own = rng(exists, at);
   if (own.uniform() > 0.8f && !always) return std::nullopt;
-  const float halfWidth = 0.5f * own.uniform(0.95f, 2.1f);
-  const float height = own.uniform(2.1f, 2.45f);
-  const float centre = middle + rng(line, lineOf).uniform(-0.3f, 0.3f);  // one line: doors behind each other
+  const float halfWidth = snapped(0.5f * own.uniform(0.95f, 2.1f));
+  const float height = snapped(own.uniform(2.1f, 2.45f));
+  const float centre = snapped(middle + rng(line, lineOf).uniform(-0.3f, 0.3f));  // one line: doors behind each other
   return Doorway{centre - halfWidth, centre + halfWidth, height};
 }
 
