@@ -211,7 +211,7 @@ void Hall::addChandelier(const Vec3& ceiling, float drop, float radius, std::siz
     for (std::size_t i = 0; i < here; ++i, ++placed) {
       const float angle = 2 * kPi * static_cast<float>(i) / static_cast<float>(here);
       const Vec3 at = centre + Vec3((r + 0.018f) * std::cos(angle), y + 0.09f, (r + 0.018f) * std::sin(angle));
-      addFlame(Tint::kWarm, radiance, at, std::min<std::size_t>(4, lights - 4 * placed));
+      addFlame(radius > 1 ? Tint::kWarm : Tint::kNeutral, radiance, at, std::min<std::size_t>(4, lights - 4 * placed));
     }
   }
 }

@@ -56,7 +56,7 @@ std::vector<std::byte> duskSky() {
         const float towards =
             0.5f + 0.5f * glm::dot(glm::normalize(Vec3(d.x, 0, d.z)), glm::normalize(Vec3(toSun.x, 0, toSun.z)));
         const float low = std::exp(-5 * d.y), glow = std::exp(-11 * d.y) * towards * towards;
-        sky = Vec3(0.045f, 0.080f, 0.210f) + low * Vec3(0.15f, 0.13f, 0.19f) + glow * Vec3(1.4f, 0.56f, 0.18f);
+        sky = Vec3(0.065f, 0.110f, 0.280f) + low * Vec3(0.22f, 0.18f, 0.26f) + glow * Vec3(2.0f, 0.80f, 0.26f);
       }
       for (int c = 0; c < 3; ++c) image.layers[0].values.push_back(sky[c]);
     }
@@ -264,10 +264,10 @@ void buildKinds(GlbBuilder& builder, std::size_t lights, std::uint64_t seed) {
   terrace.addStructure();
   terrace.addFurniture();
   const Shares shares = shareOut(lights);
-  if (shares.directional > 0) builder.addDirectional(kSunAxis, Vec3(1.0f, 0.55f, 0.25f) * 0.7f);
-  terrace.addPoints(shares.points, 60);
-  terrace.addSpots(shares.spots, 50);
-  terrace.addTriangles(shares.triangles, 36);
+  if (shares.directional > 0) builder.addDirectional(kSunAxis, Vec3(1.0f, 0.55f, 0.25f) * 1.1f);
+  terrace.addPoints(shares.points, 80);
+  terrace.addSpots(shares.spots, 70);
+  terrace.addTriangles(shares.triangles, 50);
   builder.setEnvironment(duskSky());
 }
 

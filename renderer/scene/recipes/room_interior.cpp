@@ -277,7 +277,7 @@ void LampPlanner::mainLamp() {
   const std::uint32_t kind = rng_.below(4);
   const Tint tint = whiteTint();
   constexpr double kDecades = 1;  // the lamp that a room is lit by is a strong one
-  if (left_ >= 2 * kGlobeLights && kind == 0) {
+  if (left_ >= kGlobeLights + 20 && kind == 0) {
     const Pose at = ceilingAt(0, 0);
     add(
         0.5f, tint, kGlobeLights, [=, this](Glow glow) { addGlobe(palette_, at, 0.65f, 0.22f, glow); }, kDecades);
@@ -288,7 +288,8 @@ void LampPlanner::mainLamp() {
         0.1f, tint, kBulbLights, [=, this](Glow glow) { addPendant(palette_, at, 0.8f, shade, glow); }, kDecades);
   } else if (left_ >= kPanelPaneLights) {
     const std::size_t panes = std::min<std::size_t>(left_ / kPanelPaneLights, 1 + rng_.below(3));
-    const Pose at = ceilingAt(rng_.uniform(-0.3f, 0.3f), rng_.uniform(-0.3f, 0.3f));
+    // Towards the front: from there one sees what a panel lights, not the panel.
+    const Pose at = ceilingAt(rng_.uniform(-0.3f, 0.3f), rng_.uniform(0.2f, 0.5f));
     const Vec2 size(0.6f * static_cast<float>(panes), 1.2f);
     add(
         size.x * size.y, tint, panes * kPanelPaneLights,

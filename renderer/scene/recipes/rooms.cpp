@@ -18,7 +18,7 @@ constexpr std::size_t kLightsPerRoom = 60;
 constexpr std::size_t kMostRooms = 17'000;  ///< above a million lights rooms get more lamps, not their number larger
 constexpr std::size_t kFullyFurnishedRooms = 1500;
 constexpr std::size_t kRoomsWithPunctualLights = 5000;
-constexpr float kRadiance = 0.4f;  ///< of a room of mean brightness, W/(m² sr)
+constexpr float kRadiance = 0.3f;  ///< of a room of mean brightness, W/(m² sr)
 
 /// Independent decisions of one seed.
 enum Stream : std::uint64_t { kWidths, kDepths, kThroughDoor, kSideDoor, kThroughLine, kSideLine, kInterior, kDecor };
@@ -253,14 +253,14 @@ void addCameras(GlbBuilder& builder, const Plan& plan) {
   const RoomSpace room = plan.room(at);
   const float eye = room.lower.y + 1.5f;
   const Doorway behind = plan.doorBehind(at).value();
-  const Vec3 through(0.5f * (behind.from + behind.to), room.lower.y + 1.35f, room.lower.z);
+  const Vec3 through(0.5f * (behind.from + behind.to), room.lower.y + 1.25f, room.lower.z);
   builder.addCamera("inside", {room.lower.x + 0.62f * (room.upper.x - room.lower.x), eye, -0.2f}, through, 1.0f);
   const RoomSpace next = plan.room({at.column, 1, at.storey});
   builder.addCamera("through", {next.lower.x + 0.5f, eye, next.upper.z - 0.5f},
                     {next.upper.x, room.lower.y + 1.2f, 0.5f * (next.lower.z + next.upper.z)}, 1.0f);
   const float width = plan.x(plan.columns()) - plan.x(0);
   const float height = kStorey * static_cast<float>(plan.storeys());
-  const float distance = std::max(0.95f * width, 1.7f * height);
+  const float distance = std::max(0.82f * width, 1.7f * height);
   builder.addCamera("overview", {-0.22f * width, 0.5f * height + 0.08f * distance, distance}, {0, 0.47f * height, 0},
                     0.7f);
 }
@@ -282,7 +282,7 @@ void buildRooms(GlbBuilder& builder, std::size_t lights, std::uint64_t seed) {
     const std::optional<Vec2> camera = i == 0 ? std::optional(Vec2(room.centre().x, room.upper.z)) : std::nullopt;
     furnishRoom(palette, room, clutter, camera, rng);
     const std::size_t share = lights / rooms.size() + (i < lights % rooms.size() ? 1 : 0);
-    const float brightness = i == 0 ? 1.0f : std::pow(10.0f, rng.uniform(-0.5f, 0.3f));
+    const float brightness = i == 0 ? 1.0f : std::pow(10.0f, rng.uniform(-0.4f, 0.4f));
     if (share > 0) lightRoom(palette, room, share, kRadiance * brightness, i < kRoomsWithPunctualLights, rng);
   }
 }

@@ -187,10 +187,16 @@ void Street::addShopLights(const House& house) {
   Surface& frame = palette_.flat(Paint::kWalnut);
   addBox(frame, shop, {-windowWidth / 2 - 0.1f, 0, -0.14f}, {windowWidth / 2 + 0.1f, 3.05f, 0}, kBack | kBottom);
   const bool open = rng_.uniform() < 0.6f && spend(2);
-  const float radiance = 2.2f * std::pow(10.0f, -1.2f * rng_.uniform());
-  addPane(open ? palette_.emitter(rng_.uniform() < 0.7f ? Tint::kSoft : Tint::kCool, radiance)
+  const float radiance = 1.4f * std::pow(10.0f, -1.2f * rng_.uniform());
+  addPane(open ? palette_.emitter(rng_.uniform() < 0.7f ? Tint::kWarm : Tint::kCool, radiance)
                : palette_.flat(Paint::kDarkGlass),
           shop, {-windowWidth / 2, 0.6f}, {windowWidth / 2, 2.8f}, 2);
+  const int bars = static_cast<int>(windowWidth / 1.3f);
+  for (int i = 1; i < bars; ++i) {
+    const float x = windowWidth * (static_cast<float>(i) / static_cast<float>(bars) - 0.5f);
+    addBox(frame, shop, {x - 0.03f, 0.55f, 0}, {x + 0.03f, 2.85f, 0.06f}, kBack);
+  }
+  addBox(frame, shop, {-windowWidth / 2, 2.2f, 0}, {windowWidth / 2, 2.26f, 0.055f}, kBack);
   const Pose sign = shop.at({0, 3.4f, 0});
   const float half = 0.3f * windowWidth;
   addBox(palette_.flat(Paint::kBlackMetal), sign, {-half - 0.06f, -0.26f, -0.1f}, {half + 0.06f, 0.26f, 0.08f}, kBack);
