@@ -270,7 +270,6 @@ class LampPlanner {
   std::size_t left_;
   Rng& rng_;
   std::vector<PlannedLamp> lamps_;
-  std::size_t rows_ = 0;  ///< of fairy lights under the ceiling
 };
 
 void LampPlanner::mainLamp() {

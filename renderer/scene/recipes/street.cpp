@@ -191,12 +191,13 @@ void Street::addShopLights(const House& house) {
   addPane(open ? palette_.emitter(rng_.uniform() < 0.7f ? Tint::kWarm : Tint::kCool, radiance)
                : palette_.flat(Paint::kDarkGlass),
           shop, {-windowWidth / 2, 0.6f}, {windowWidth / 2, 2.8f}, 2);
+  constexpr float kInFront = 0.035f;  // of the pane, which does not glow into its bars
   const int bars = static_cast<int>(windowWidth / 1.3f);
   for (int i = 1; i < bars; ++i) {
     const float x = windowWidth * (static_cast<float>(i) / static_cast<float>(bars) - 0.5f);
-    addBox(frame, shop, {x - 0.03f, 0.55f, 0}, {x + 0.03f, 2.85f, 0.06f}, kBack);
+    addBox(frame, shop, {x - 0.03f, 0.6f, kInFront}, {x + 0.03f, 2.8f, kInFront + 0.03f});
   }
-  addBox(frame, shop, {-windowWidth / 2, 2.2f, 0}, {windowWidth / 2, 2.26f, 0.055f}, kBack);
+  addBox(frame, shop, {-windowWidth / 2, 2.2f, kInFront}, {windowWidth / 2, 2.26f, kInFront + 0.025f});
   const Pose sign = shop.at({0, 3.4f, 0});
   const float half = 0.3f * windowWidth;
   addBox(palette_.flat(Paint::kBlackMetal), sign, {-half - 0.06f, -0.26f, -0.1f}, {half + 0.06f, 0.26f, 0.08f}, kBack);

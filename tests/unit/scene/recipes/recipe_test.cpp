@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(All, Recipes, ::testing::ValuesIn(kRecipes),
 
 TEST_P(Recipes, HaveExactlyTheLightsAskedFor) {
   for (std::size_t lights = 0; lights < 40; ++lights) EXPECT_EQ(generate(recipe(), lights).lightCount(), lights);
-  for (const std::size_t lights : {100, 101, 333, 999, 1000, 4001, 20'011}) {
+  for (const std::size_t lights : std::initializer_list<std::size_t>{100, 101, 333, 999, 1000, 4001, 20'011}) {
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
       EXPECT_EQ(generate(recipe(), lights, seed).lightCount(), lights) << "seed " << seed;
     }
@@ -169,7 +169,7 @@ TEST(RoomsRecipe, RoomsHaveNoCracks) {
 }
 
 TEST(KindsRecipe, HasEveryKindOfLight) {
-  for (const std::size_t lights : {8, 30, 300}) {
+  for (const std::size_t lights : std::initializer_list<std::size_t>{8, 30, 300}) {
     const Glb glb = generate(Recipe::kKinds, lights);
     EXPECT_GT(glb.punctualCount("point"), 0u);
     EXPECT_GT(glb.punctualCount("spot"), 0u);
