@@ -260,8 +260,8 @@ void addCameras(GlbBuilder& builder, const Plan& plan) {
                     {next.upper.x, room.lower.y + 1.2f, 0.5f * (next.lower.z + next.upper.z)}, 1.0f);
   const float width = plan.x(plan.columns()) - plan.x(0);
   const float height = kStorey * static_cast<float>(plan.storeys());
-  const float distance = std::max(0.82f * width, 1.7f * height);
-  builder.addCamera("overview", {-0.22f * width, 0.5f * height + 0.08f * distance, distance}, {0, 0.47f * height, 0},
+  const float distance = std::max(0.86f * width, 1.7f * height);
+  builder.addCamera("overview", {-0.07f * width, 0.5f * height + 0.08f * distance, distance}, {0, 0.47f * height, 0},
                     0.7f);
 }
 
