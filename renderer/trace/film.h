@@ -51,6 +51,10 @@ class Film {
   double relativeError() const;
   BadSamples badSamples() const { return bad_; }
   std::size_t bytes() const;
+  /// What a pixel of such a film takes, to know before it is made whether there is room.
+  static std::size_t bytesPerPixel(bool auxiliary) {
+    return sizeof(Sums) + sizeof(Vec3) + (auxiliary ? sizeof(Auxiliary) + sizeof(PendingAuxiliary) : 0);
+  }
 
   /// "" (RGB), "albedo" (RGB), "normal" (XYZ), "depth" (Z) and "error" (RGB, standard error of the mean); no metadata.
   LayeredImage layers() const;
