@@ -3,7 +3,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/rng.h"
 #include "renderer/base/tone_map.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/temp_folder.h"
 
 #include <bit>
 #include <string_view>
@@ -14,7 +14,6 @@
 namespace cellcut {
 namespace {
 
-using test::TemporaryDirectory;
 using testing::HasSubstr;
 
 std::vector<std::byte> bytesOf(std::string_view text) {
@@ -53,28 +52,28 @@ std::string messageOf(std::span<const std::byte> encoded) {
 }
 
 TEST(ImageIo, PfmKeepsEveryBit) {
-  const TemporaryDirectory directory;
+  const TempFolder folder;
   ImageRgb image = noise(5, 3);
   image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
-  writePfm(directory / "a.pfm", image);
-  expectSame(readImage(directory / "a.pfm"), image);
+  writePfm(folder / "a.pfm", image);
+  expectSame(readImage(folder / "a.pfm"), image);
 }
 
 TEST(ImageIo, ExrKeepsEveryBit) {
-  const TemporaryDirectory directory;
+  const TempFolder folder;
   ImageRgb image = noise(37, 21);
   image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
-  writeExr(directory / "a.exr", oneLayer(image));
-  expectSame(readImage(directory / "a.exr"), image);
+  writeExr(folder / "a.exr", oneLayer(image));
+  expectSame(readImage(folder / "a.exr"), image);
 }
 
 TEST(ImageIo, PngHasToneMappedPixels) {
-  const TemporaryDirectory directory;
+  const TempFolder folder;
   ImageRgb image(2, 2);
   image.at(1, 0) = {0.1f, 0.2f, 0.4f};
   image.at(0, 1) = {std::numeric_limits<float>::quiet_NaN(), 0.4f, -1};
-  writePng(directory / "a.png", image, 2);
-  const ImageRgba8 read = decodeImage8(readFile(directory / "a.png", 1 << 20), "a.png");
+  writePng(folder / "a.png", image, 2);
+  const ImageRgba8 read = decodeImage8(readFile(folder / "a.png", 1 << 20), "a.png");
   ASSERT_EQ(read.width(), 2);
   ASSERT_EQ(read.height(), 2);
   const Vec3 shown = toneMap({0.2f, 0.4f, 0.8f});
