@@ -13,6 +13,12 @@ using test::GltfBuilder;
 using Json = nlohmann::json;
 using testing::HasSubstr;
 
+/// Of a list that may be a temporary.
+template <class T>
+std::span<const std::byte> bytesOf(const std::vector<T>& values) {
+  return std::as_bytes(std::span(values));
+}
+
 /// Three floats of a value of size 1 after a few roundings.
 constexpr float kRounding = 2e-6f;
 
@@ -143,8 +149,8 @@ TEST_F(GltfLoader, ReadsQuantizedPositionsPlainAndNormalized) {
 TEST_F(GltfLoader, SparseValuesReplaceThoseOfTheAccessor) {
   GltfBuilder file;
   Json primitive = file.primitive({{0, 0, 0}, {1, 0, 0}, {0, 9, 0}});
-  const std::size_t indices = file.addBufferView(std::as_bytes(std::span(std::vector<std::uint16_t>{2})));
-  const std::size_t values = file.addBufferView(std::as_bytes(std::span(std::vector<glm::vec3>{{0, 3, 0}})));
+  const std::size_t indices = file.addBufferView(bytesOf(std::vector<std::uint16_t>{2}));
+  const std::size_t values = file.addBufferView(bytesOf(std::vector<glm::vec3>{{0, 3, 0}}));
   file.json["accessors"][0]["sparse"] = {{"count", 1},
                                          {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
                                          {"values", {{"bufferView", values}}}};
