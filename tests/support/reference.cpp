@@ -14,21 +14,35 @@ double spotFalloff(const SpotLight& spot, double cosine) {
   return clamped * clamped;
 }
 
+/// Where light is gathered, and what may hide the lights from it.
+struct Place {
+  Vec3 p;
+  Vec3 n;
+  const Accel* occluders;
+
+  /// Share of a ray along `d` to `end` (1 is the tip of d) that arrives: 0 or 1. It starts and stops a ten-thousandth off both
+  /// ends; the geometry of the tests keeps its distance.
+  double visibility(const DVec3& d, double end = 0.9999) const {
+    if (!occluders) return 1;
+    const Vec3 origin(DVec3(p) + 1e-4 * DVec3(n));
+    return occluders->occluded({origin, Vec3(d), static_cast<float>(end)}, 0) ? 0 : 1;
+  }
+};
+
 /// intensity · cos / d² from a position.
-DVec3 positional(const Vec3& position, const DVec3& intensity, const Vec3& p, const Vec3& n) {
-  const DVec3 d = DVec3(position) - DVec3(p);
+DVec3 positional(const Vec3& position, const DVec3& intensity, const Place& place) {
+  const DVec3 d = DVec3(position) - DVec3(place.p);
   const double squared = glm::dot(d, d);
-  return intensity * std::max(0.0, glm::dot(d, DVec3(n))) / (squared * std::sqrt(squared));
+  return intensity * place.visibility(d) * std::max(0.0, glm::dot(d, DVec3(place.n))) / (squared * std::sqrt(squared));
 }
 
-DVec3 spotIrradiance(const SpotLight& spot, const Vec3& p, const Vec3& n) {
-  const DVec3 away = glm::normalize(DVec3(p) - DVec3(spot.position));
-  return spotFalloff(spot, glm::dot(away, DVec3(spot.axis))) * positional(spot.position, DVec3(spot.intensity), p, n);
+DVec3 spotIrradiance(const SpotLight& spot, const Place& place) {
+  const DVec3 away = glm::normalize(DVec3(place.p) - DVec3(spot.position));
+  return spotFalloff(spot, glm::dot(away, DVec3(spot.axis))) * positional(spot.position, DVec3(spot.intensity), place);
 }
 
 /// Midpoint rule over resolution² congruent parts.
-DVec3 triangleIrradiance(const Mesh& mesh, std::uint32_t index, const Material& material, const Vec3& p, const Vec3& n,
-                         int resolution) {
+DVec3 triangleIrradiance(const Mesh& mesh, std::uint32_t index, const Material& material, const Place& place, int resolution) {
   const Triangle& t = mesh.triangles[index];
   const DVec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
   const DVec3 cross = glm::cross(b - a, c - a);
@@ -37,10 +51,11 @@ DVec3 triangleIrradiance(const Mesh& mesh, std::uint32_t index, const Material& 
     for (int j = 0; j < 2 * (resolution - i) - 1; ++j) {
       const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
       const DVec3 q = a + (b - a) * ((i + third) / resolution) + (c - a) * ((j / 2 + third) / resolution);
-      const DVec3 d = q - DVec3(p);
+      const DVec3 d = q - DVec3(place.p);
       const double away = -glm::dot(d, cross), squared = glm::dot(d, d);
-      const double cosines = std::max(0.0, glm::dot(d, DVec3(n))) * (material.doubleSided ? std::abs(away) : std::max(0.0, away));
-      sum += cosines / (squared * squared);
+      const double emitted = material.doubleSided ? std::abs(away) : std::max(0.0, away);
+      const double cosines = std::max(0.0, glm::dot(d, DVec3(place.n))) * emitted;
+      if (cosines > 0) sum += place.visibility(d) * cosines / (squared * squared);
     }
   }
   // |cross| / 2 is the area and is already in `away` once.
@@ -48,7 +63,7 @@ DVec3 triangleIrradiance(const Mesh& mesh, std::uint32_t index, const Material& 
 }
 
 /// Over the texels of one tile, each in resolution² cells of equal longitude and latitude.
-DVec3 tileIrradiance(const EnvironmentLight& light, std::size_t tile, const Vec3& n, int resolution) {
+DVec3 tileIrradiance(const EnvironmentLight& light, std::size_t tile, const Place& place, int resolution) {
   const Environment& environment = light.environment();
   const EnvironmentTile& t = light.tiles()[tile];
   const std::uint32_t size = 1u << t.level;
@@ -64,7 +79,10 @@ DVec3 tileIrradiance(const EnvironmentLight& light, std::size_t tile, const Vec3
     for (int x = static_cast<int>(t.x * size) * resolution; x < last(t.x, width); ++x) {
       const double azimuth = 2 * pi * ((x + 0.5) / (width * resolution) - 0.5) - static_cast<double>(environment.rotation);
       const DVec3 direction(std::sin(pi * v) * std::cos(azimuth), std::cos(pi * v), std::sin(pi * v) * std::sin(azimuth));
-      sum += referenceEnvironment(environment, direction) * (solidAngle * std::max(0.0, glm::dot(direction, DVec3(n))));
+      const double cosine = glm::dot(direction, DVec3(place.n));
+      if (cosine <= 0) continue;
+      sum += referenceEnvironment(environment, direction) *
+             (solidAngle * cosine * place.visibility(direction, std::numeric_limits<double>::infinity()));
     }
   }
   return sum;
@@ -87,22 +105,26 @@ DVec3 referenceEnvironment(const Environment& environment, const DVec3& directio
          fy * ((1 - fx) * texel(x0, y0 + 1) + fx * texel(x0 + 1, y0 + 1));
 }
 
-DVec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, const Vec3& n, int resolution) {
+DVec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, const Vec3& n, int resolution,
+                          const Accel* occluders) {
   const Scene& scene = lights.scene();
   const std::size_t i = lights.indexInKind(light);
+  const Place place{p, n, occluders};
   switch (lights.kind(light)) {
-    case LightKind::kPoint: return positional(scene.pointLights[i].position, DVec3(scene.pointLights[i].intensity), p, n);
-    case LightKind::kSpot: return spotIrradiance(scene.spotLights[i], p, n);
+    case LightKind::kPoint: return positional(scene.pointLights[i].position, DVec3(scene.pointLights[i].intensity), place);
+    case LightKind::kSpot: return spotIrradiance(scene.spotLights[i], place);
     case LightKind::kTriangle: {
       const TriangleLight& triangle = lights.triangles()[i];
       const Mesh& mesh = scene.meshes[indexOf(triangle.mesh)];
-      return triangleIrradiance(mesh, triangle.triangle, scene.materials[indexOf(mesh.material)], p, n, resolution);
+      return triangleIrradiance(mesh, triangle.triangle, scene.materials[indexOf(mesh.material)], place, resolution);
     }
     case LightKind::kDirectional: {
       const DirectionalLight& directional = scene.directionalLights[i];
-      return DVec3(directional.irradiance) * std::max(0.0, -glm::dot(DVec3(directional.axis), DVec3(n)));
+      const DVec3 d = -DVec3(directional.axis);
+      return DVec3(directional.irradiance) * std::max(0.0, glm::dot(d, DVec3(n))) *
+             place.visibility(d, std::numeric_limits<double>::infinity());
     }
-    case LightKind::kEnvironment: return tileIrradiance(*lights.environment(), i, n, resolution);
+    case LightKind::kEnvironment: return tileIrradiance(*lights.environment(), i, place, resolution);
   }
   return DVec3(0);
 }

@@ -10,9 +10,11 @@
 
 namespace cellcut::test {
 
-/// Unoccluded irradiance of one light at a point with unit normal n, RGB in W/m². Triangles and the environment by quadrature with
+/// Irradiance of one light at a point with unit normal n, RGB in W/m². Triangles and the environment by quadrature with
 /// `resolution`² cells per triangle or texel; uniform emission is assumed of triangles.
-glm::dvec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, const Vec3& n, int resolution);
+/// \param occluders  what stands between; null: nothing does
+glm::dvec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, const Vec3& n, int resolution,
+                               const Accel* occluders = nullptr);
 
 /// Radiance of a lat-long picture along a unit direction, in double: the convention of environment.h, written once more.
 glm::dvec3 referenceEnvironment(const Environment& environment, const glm::dvec3& direction);
