@@ -16,7 +16,7 @@ RenderSettings settingsFor(int maxDepth) {
   RenderSettings settings;
   settings.width = settings.height = static_cast<int>(byDepth(32, 64));
   settings.maxDepth = maxDepth;
-  settings.seed = 11 + static_cast<std::uint64_t>(maxDepth);
+  settings.seed = 21 + static_cast<std::uint64_t>(maxDepth);
   return settings;
 }
 
