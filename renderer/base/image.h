@@ -14,6 +14,8 @@ namespace cellcut {
 template <class Pixel>
 class Image {
  public:
+  using value_type = Pixel;
+
   Image() = default;
   Image(int width, int height, const Pixel& fill = Pixel{})
       : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}

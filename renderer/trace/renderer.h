@@ -2,6 +2,8 @@
 /// A scene and settings → passes over a film. The whole of a headless rendering but for files and clocks.
 #pragma once
 
+#include "renderer/base/pixel_sampler.h"
+#include "renderer/lights/lights.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/scene.h"
 #include "renderer/trace/film.h"
@@ -12,32 +14,22 @@
 
 namespace cellcut {
 
-enum class PixelSampling : std::uint8_t { kSobol, kIndependent };
-
 struct RenderSettings {
   int width = 1280;
   int height = 720;
-  int maxDepth = 8;       ///< path vertices that scatter: 1 is direct light only; ≥ 0
+  int maxDepth = 8;  ///< path vertices that scatter: 1 is direct light only; ≥ 0
   Strategy strategy = Strategy::kProportional;
   PixelSampling sampling = PixelSampling::kSobol;
   std::uint64_t seed = 0;
-  int threads = 0;        ///< 0: one per hardware thread
-  std::size_t camera = 0; ///< index into Scene::cameras
-  bool auxiliary = true;  ///< albedo, normal and depth layers
+  int threads = 0;         ///< 0: one per hardware thread
+  std::size_t camera = 0;  ///< index into Scene::cameras
+  bool auxiliary = true;   ///< albedo, normal and depth layers
 };
 
 struct RayCounts {
   std::uint64_t camera = 0;
   std::uint64_t bounce = 0;
   std::uint64_t shadow = 0;
-};
-
-struct LightCounts {
-  std::size_t point = 0;
-  std::size_t spot = 0;
-  std::size_t triangle = 0;
-  std::size_t directional = 0;
-  std::size_t environment = 0;  ///< tiles
 };
 
 /// Bytes; what the process holds at most is the operating system's to say.

@@ -1,0 +1,92 @@
+#include "app/command_line.h"
+
+#include "app/console.h"
+#include "app/verbs.h"
+#include "renderer/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace cellcut {
+namespace {
+
+/// One argument in the form in which a POSIX shell reads it back.
+std::string quoted(const std::string& argument) {
+  const auto isPlain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./=+,:@%").find(c) != std::string_view::npos;
+  };
+  if (!argument.empty() && std::all_of(argument.begin(), argument.end(), isPlain)) return argument;
+  std::string result = "'";
+  for (const char c : argument) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string joined(std::span<const char* const> args) {
+  std::string line = "cellcut";
+  for (const char* argument : args.subspan(std::min<std::size_t>(1, args.size()))) line += " " + quoted(argument);
+  return line;
+}
+
+std::string oneLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Help and version are no errors, though the parser reports them as such.
+int reportParseOutcome(const CLI::App& program, const CLI::ParseError& outcome, const Console& console) {
+  if (outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    program.exit(outcome, console.out, console.err);
+    return kDone;
+  }
+  const auto chosen = program.get_subcommands();
+  const std::string place = chosen.empty() ? "cellcut" : "cellcut " + chosen.front()->get_name();
+  console.err << place << ": " << oneLine(outcome.what()) << "; see '" << place << " --help'\n";
+  return kBadInput;
+}
+
+int parseAndRun(std::span<const char* const> args, const Console& console) {
+  CLI::App program("Renders scenes with very many lights.", "cellcut");
+  program.set_version_flag("--version", "cellcut " CELLCUT_VERSION);
+  program.require_subcommand(0, 1);
+  program.get_formatter()->column_width(36);
+  program.get_formatter()->label("SUBCOMMAND", "VERB");
+  program.footer("Each verb has its own help with examples: cellcut render --help");
+  const std::array verbs{addRender(program), addCompare(program), addGenerate(program), addInfo(program)};
+  try {
+    program.parse(static_cast<int>(args.size()), args.data());
+  } catch (const CLI::ParseError& outcome) {
+    return reportParseOutcome(program, outcome, console);
+  }
+  for (const Verb& verb : verbs) {
+    if (verb.parser->parsed()) return verb.run(console);
+  }
+  console.err << program.help();
+  return kBadInput;
+}
+
+}  // namespace
+
+int runCommandLine(std::span<const char* const> args, std::ostream& out, std::ostream& err, bool terminal) {
+  try {
+    const Console console{out, err, terminal, joined(args)};
+    return parseAndRun(args, console);
+  } catch (const InputError& error) {
+    err << "cellcut: " << oneLine(error.what()) << '\n';
+    return kBadInput;
+  } catch (const std::bad_alloc&) {
+    err << "cellcut: not enough memory; a smaller --size or a scene with fewer triangles needs less\n";
+    return kFailed;
+  } catch (const std::exception& error) {
+    err << "cellcut: " << oneLine(error.what()) << '\n';
+    return kFailed;
+  }
+}
+
+}  // namespace cellcut

@@ -1,0 +1,172 @@
+#include "app/options.h"
+
+#include "app/numbers.h"
+#include "renderer/base/error.h"
+
+#include <charconv>
+#include <functional>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+
+namespace cellcut {
+namespace {
+
+/// An option whose text goes through a function of ours: the parser's own conversions read "010" as eight and "1e3x" as
+/// a thousand.
+CLI::Option* addText(CLI::App& verb, const std::string& name, const std::string& type,
+                     std::function<void(const std::string&)> use, const std::string& description) {
+  return verb.add_option_function<std::string>(name, std::move(use), description)->type_name(type);
+}
+
+Strategy parseStrategy(const std::string& name) {
+  if (const auto strategy = strategyFromName(name)) return *strategy;
+  std::string known;
+  for (const StrategyName& s : kStrategies) known += (known.empty() ? "" : ", ") + std::string(s.name);
+  throw InputError("--strategy", "'" + name + "' is none of " + known);
+}
+
+PixelSampling parseSampler(const std::string& name) {
+  if (name == "sobol") return PixelSampling::kSobol;
+  if (name == "independent") return PixelSampling::kIndependent;
+  throw InputError("--sampler", "'" + name + "' is none of sobol, independent");
+}
+
+double parsePunctualScale(const std::string& text) {
+  // Lumen per watt at 555 nm: what Blender's exporter multiplies its lights by (glTF wants candela).
+  if (text == "blender") return 1.0 / 683.0;
+  return parseReal("--punctual-scale", text, {.least = 0});
+}
+
+int parseSide(const std::string& text) {
+  return static_cast<int>(parseWhole("--size", text, {.least = 1, .most = kMaxPictureSide}));
+}
+
+void parseSize(const std::string& text, RenderSettings& settings) {
+  const std::size_t cross = text.find('x');
+  if (cross == std::string::npos) throw InputError("--size", "'" + text + "' is not of the form 1280x720");
+  settings.width = parseSide(text.substr(0, cross));
+  settings.height = parseSide(text.substr(cross + 1));
+}
+
+void addFiles(CLI::App& verb, RenderOptions& o) {
+  addText(
+      verb, "SCENE", "", [&o](const std::string& t) { o.scene = t; }, "Scene: .gltf, .glb or .obj")
+      ->required();
+  addText(
+      verb, "-o,--output", "FILE", [&o](const std::string& t) { o.output = checkedOutput(t); },
+      "Picture: .exr (linear, all layers), .pfm (raw), .png (tone mapped)")
+      ->required();
+  const auto report = [&o](const std::string& t) {
+    requireWritable(t);
+    o.report = t;
+  };
+  addText(verb, "--report", "FILE", report, "Write a JSON report of what was done");
+}
+
+void addStopRule(CLI::App& verb, StopRule& stop) {
+  const auto spp = [&stop](const std::string& t) {
+    stop.kind = StopRule::Kind::kPasses;
+    stop.passes = parseWhole("--spp", t, {.least = 1, .most = kMaxPasses});
+  };
+  const auto time = [&stop](const std::string& t) {
+    stop.kind = StopRule::Kind::kSeconds;
+    stop.seconds = parseReal("--time", t, {.least = 0, .leastExcluded = true});
+  };
+  const auto noise = [&stop](const std::string& t) {
+    stop.kind = StopRule::Kind::kNoise;
+    stop.noise = parseReal("--noise", t, {.least = 0, .leastExcluded = true});
+  };
+  CLI::Option* sppOption = addText(verb, "--spp", "N", spp, "Stop after N samples per pixel (default 64)");
+  CLI::Option* timeOption =
+      addText(verb, "--time", "SECONDS", time, "Stop at the end of the pass in which SECONDS of rendering run out");
+  CLI::Option* noiseOption =
+      addText(verb, "--noise", "REL", noise, "Stop when the estimated relative error is below REL; see below");
+  sppOption->excludes(timeOption)->excludes(noiseOption);
+  timeOption->excludes(noiseOption);
+}
+
+void addSampling(CLI::App& verb, RenderSettings& s) {
+  addText(
+      verb, "--strategy", "NAME", [&s](const std::string& t) { s.strategy = parseStrategy(t); },
+      "How a light is chosen; see below (default " + std::string(nameOf(s.strategy)) + ")");
+  addText(
+      verb, "--sampler", "NAME", [&s](const std::string& t) { s.sampling = parseSampler(t); },
+      "Random numbers: sobol (Owen-scrambled) or independent (default sobol)");
+  addText(
+      verb, "--size", "WxH", [&s](const std::string& t) { parseSize(t, s); },
+      "Pixels, each side up to " + std::to_string(kMaxPictureSide) + " (default 1280x720)");
+  const auto depth = [&s](const std::string& t) {
+    s.maxDepth = static_cast<int>(parseWhole("--max-depth", t, {.most = kMaxDepthLimit}));
+  };
+  addText(verb, "--max-depth", "D", depth,
+          "Times a path may scatter: 0 emitters only, 1 direct light only (default 8)");
+  addText(
+      verb, "--seed", "S", [&s](const std::string& t) { s.seed = parseWhole("--seed", t, {}); },
+      "Another seed, another noise (default 0)");
+  const auto threads = [&s](const std::string& t) {
+    s.threads = static_cast<int>(parseWhole("--threads", t, {.most = kMaxThreads}));
+  };
+  addText(verb, "--threads", "T", threads, "0 is one per hardware thread (default); the picture is the same for any");
+}
+
+void addView(CLI::App& verb, RenderOptions& o) {
+  addText(
+      verb, "--camera", "NAME|INDEX", [&o](const std::string& t) { o.camera = t; },
+      "A camera of the scene by its name or its number from 0 (default 0)");
+  EnvironmentOptions& e = o.environment;
+  CLI::Option* file = addText(
+      verb, "--environment", "FILE", [&e](const std::string& t) { e.file = t; },
+      "Light from all around: a lat-long .exr or .hdr, in place of the scene's own");
+  const auto scale = [&e](const std::string& t) { e.scale = parseReal("--environment-scale", t, {.least = 0}); };
+  addText(verb, "--environment-scale", "X", scale, "Multiplies its radiance (default 1)")->needs(file);
+  const auto rotation = [&e](const std::string& t) { e.rotation = parseReal("--environment-rotation", t, {}); };
+  addText(verb, "--environment-rotation", "DEG", rotation,
+          "Turns it about +Y, counter-clockwise seen from above (default 0)")
+      ->needs(file);
+  addText(
+      verb, "--punctual-scale", "X|blender",
+      [&o](const std::string& t) { o.load.punctualScale = parsePunctualScale(t); },
+      "Multiplies point, spot and directional lights; see below");
+}
+
+std::string describeCameras(const Scene& scene) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(i) + " '" + scene.cameras[i].name + "'";
+  }
+  return text;
+}
+
+}  // namespace
+
+void addRenderOptions(CLI::App& verb, RenderOptions& options) {
+  addFiles(verb, options);
+  addStopRule(verb, options.stop);
+  addSampling(verb, options.settings);
+  addView(verb, options);
+}
+
+std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex) {
+  if (nameOrIndex.empty()) return 0;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (scene.cameras[i].name == nameOrIndex) return i;
+  }
+  std::size_t index = 0;
+  const char* end = nameOrIndex.data() + nameOrIndex.size();
+  const auto [stop, error] = std::from_chars(nameOrIndex.data(), end, index);
+  if (error == std::errc{} && stop == end && index < scene.cameras.size()) return index;
+  throw InputError("--camera", "the scene has no '" + nameOrIndex + "'; it has " + describeCameras(scene));
+}
+
+Scene loadWithOptions(const RenderOptions& options) {
+  Scene scene = loadScene(options.scene, options.load);
+  const EnvironmentOptions& environment = options.environment;
+  if (environment.file) {
+    const std::string name = environment.file->string();
+    setEnvironment(scene, readImage(*environment.file), environment.scale, environment.rotation, name);
+  }
+  return scene;
+}
+
+}  // namespace cellcut

@@ -1,0 +1,53 @@
+/// \file options.h
+/// The options of a rendering, as text on the command line and as the structures that the renderer takes.
+#pragma once
+
+#include "app/output.h"
+#include "app/stop_rule.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/trace/renderer.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace cellcut {
+
+struct EnvironmentOptions {
+  std::optional<std::filesystem::path> file;
+  double scale = 1;     ///< ≥ 0
+  double rotation = 0;  ///< degrees about +Y, counter-clockwise seen from above
+};
+
+struct RenderOptions {
+  std::filesystem::path scene;
+  Output output;
+  std::optional<std::filesystem::path> report;
+  StopRule stop;
+  RenderSettings settings;  ///< `camera` is filled in when the scene is known: findCamera()
+  LoadOptions load;
+  EnvironmentOptions environment;
+  std::string camera;  ///< name or index; empty: the first
+};
+
+inline constexpr int kMaxPictureSide = 16384;  // as kMaxImagePixels: what we write we can read
+inline constexpr int kMaxDepthLimit = 10000;   // far past where a path in a closed white room still carries light
+inline constexpr int kMaxThreads = 1024;       // more is a typing error
+inline constexpr std::uint64_t kMaxPasses = 1u << 30;  // film sums are proved right to 10⁸
+
+/// Declares the options of a rendering on `verb`; parsing then fills `options`, which must stay where it is until then.
+/// Parsing throws InputError for a value that cannot be used.
+void addRenderOptions(CLI::App& verb, RenderOptions& options);
+
+/// Index of a camera by its exact name, else by its number from 0. Empty text is the first camera.
+/// \throws InputError that lists the cameras
+std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex);
+
+/// Loads the scene and what the options put around it. \throws InputError as loadScene()
+Scene loadWithOptions(const RenderOptions& options);
+
+}  // namespace cellcut

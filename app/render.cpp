@@ -1,0 +1,152 @@
+/// The verb `render`: scene file → picture file.
+#include "app/command_line.h"
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/report.h"
+#include "app/verbs.h"
+#include "renderer/base/error.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace cellcut {
+namespace {
+
+constexpr const char* kExplanations = R"(
+Noise: the relative error is the root of relMSE, estimated from the variance of the samples themselves. Stopping on it
+favours pictures that happen to look finished early: a small bias of its own. It is looked at from pass 16 on.
+
+Blender's exporter multiplies point, spot and directional lights by 683 (lumen per watt) and emissive surfaces not:
+--punctual-scale blender undoes it.
+
+Ctrl-C discards the pass in flight and writes what has been accumulated (exit code 0, or 1 when no pass was complete);
+a second one quits at once. Exit codes: 0 done, 2 bad usage or input, 1 anything else.
+
+Examples:
+  cellcut render room.glb -o room.png
+  cellcut render room.glb -o room.exr --time 60 --report room.json
+  cellcut render lamp.obj -o lamp.exr --environment sky.hdr --environment-rotation 90
+  cellcut render blender.glb -o direct.png --max-depth 1 --punctual-scale blender)";
+
+std::string helpText() {
+  std::string text = "Strategies:\n";
+  for (const StrategyName& strategy : kStrategies) {
+    text += "  " + std::string(strategy.name) + ": " + std::string(strategy.description) + "\n";
+  }
+  return text + kExplanations;
+}
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+void showWarnings(const Scene& scene, std::ostream& err) {
+  for (const std::string& warning : scene.warnings) err << "cellcut: warning: " << warning << '\n';
+}
+
+/// Linux promises memory that it does not have and kills whoever uses it; a film that cannot fit is refused before
+/// that.
+void requireMemory(const RenderSettings& settings) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  const double needed = pixels * static_cast<double>(Film::bytesPerPixel(settings.auxiliary));
+  const double installed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= installed) return;
+  std::ostringstream problem;
+  problem << settings.width << "x" << settings.height << " pixels take " << std::llround(needed / 1e9)
+          << " GB while they are rendered and this machine has " << std::llround(installed / 1e9)
+          << " GB; choose fewer, or .png or .pfm, which need half";
+  throw InputError("--size", problem.str());
+}
+
+ProgressState progressOf(const Renderer& renderer, const StopRule& rule, const RenderState& state) {
+  const RayCounts rays = renderer.rays();
+  const auto traced = static_cast<double>(rays.camera + rays.bounce + rays.shadow);
+  return {.doneShare = doneShare(rule, state),
+          .passes = state.passes,
+          .seconds = state.seconds,
+          .raysPerSecond = state.seconds > 0 ? traced / state.seconds : 0};
+}
+
+/// Passes until the rule is met or the person has had enough. Returns the seconds that it took.
+double renderPasses(Renderer& renderer, const StopRule& rule, const std::atomic<bool>& cancel, Progress& progress) {
+  const Stopwatch watch;
+  RenderState state;
+  while (!isReached(rule, state)) {
+    if (!renderer.renderPass(cancel)) break;
+    state.passes = renderer.film().passes();
+    if (needsNoise(rule, state.passes)) state.relativeError = renderer.film().relativeError();
+    state.seconds = watch.seconds();
+    progress.update(progressOf(renderer, rule, state));
+  }
+  state.seconds = watch.seconds();
+  if (state.passes > 0) progress.finish(progressOf(renderer, rule, state));
+  return state.seconds;
+}
+
+void showOutcome(const RenderRecord& record, std::ostream& err) {
+  const BadSamples bad = record.renderer.film().badSamples();
+  if (bad.nan + bad.inf > 0) {
+    err << "cellcut: warning: " << bad.nan << " samples were NaN and " << bad.inf << " infinite; they count as black\n";
+  }
+  const auto passes = record.renderer.film().passes();
+  if (record.interrupted) err << "cellcut: interrupted; the picture holds the " << passes << " complete passes\n";
+  err << "wrote " << record.options.output.file.string() << '\n';
+}
+
+int renderPicture(const RenderOptions& options, const Console& console) {
+  RenderSettings settings = options.settings;
+  settings.auxiliary = options.output.kind == PictureKind::kExr;
+  requireMemory(settings);
+
+  const InterruptRequest interrupt;
+  RenderTimes times;
+  const Stopwatch loading;
+  const Scene scene = loadWithOptions(options);
+  times.load = loading.seconds();
+  showWarnings(scene, console.err);
+
+  settings.camera = findCamera(scene, options.camera);
+  const Stopwatch building;
+  Renderer renderer(scene, settings);
+  times.build = building.seconds();
+
+  Progress progress(console.err, console.terminal);
+  times.render = renderPasses(renderer, options.stop, interrupt.requested(), progress);
+  if (renderer.film().passes() == 0) {
+    console.err << "cellcut: interrupted before the first pass was complete; nothing was written\n";
+    return kFailed;
+  }
+  const RenderRecord record{options, scene, renderer, times, interrupt.requested()};
+  writePicture(options.output, renderer.film(), pictureMetadata(record, console.commandLine));
+  if (options.report) {
+    const std::string report = renderReport(record).dump(2) + "\n";
+    writeBytes(*options.report, std::as_bytes(std::span(report)));
+  }
+  showOutcome(record, console.err);
+  return kDone;
+}
+
+}  // namespace
+
+Verb addRender(CLI::App& program) {
+  CLI::App* verb = program.add_subcommand("render", "Render a scene to a picture");
+  const auto options = std::make_shared<RenderOptions>();
+  addRenderOptions(*verb, *options);
+  verb->footer(helpText());
+  return {verb, [options](const Console& console) { return renderPicture(*options, console); }};
+}
+
+}  // namespace cellcut

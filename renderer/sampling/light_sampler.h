@@ -1,0 +1,41 @@
+/// \file light_sampler.h
+/// The choice of ONE light at a path vertex: what every strategy implements and all that the integrator knows of them.
+#pragma once
+
+#include "renderer/lights/lights.h"
+#include "renderer/sampling/strategy.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+namespace cellcut {
+
+/// Where light is to be gathered.
+struct ShadingPoint {
+  Vec3 p;  ///< metres
+  Vec3 n;  ///< unit shading normal, on the side of the outgoing direction; only directions above it matter
+};
+
+struct SampledLight {
+  LightId light;
+  float pmf;  ///< P(light | point), > 0
+};
+
+/// A strategy. Threads: const members may run concurrently. Unbiased: P(ℓ | x) > 0 wherever ℓ can contribute at x.
+class LightSampler {
+ public:
+  virtual ~LightSampler() = default;
+  /// Nothing when no light can reach the point; Σ pmf over all lights is 1 otherwise.
+  /// \param u  uniform in [0, 1)
+  virtual std::optional<SampledLight> sample(const ShadingPoint& point, double u) const = 0;
+  /// The probability that sample() returns `light` at this point.
+  virtual float pmf(const ShadingPoint& point, LightId light) const = 0;
+  /// Memory of its tables.
+  virtual std::size_t bytes() const = 0;
+};
+
+/// Builds a strategy over lights that outlive it.
+std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights);
+
+}  // namespace cellcut

@@ -1,0 +1,64 @@
+/// \file bsdf.h
+/// Lambert under GGX: the metallic-roughness model of glTF 2.0.
+///
+/// Directions are unit, in the shading frame (z = shading normal), and point away from the surface. Both must be above
+/// it; there is no transmission.
+#pragma once
+
+#include "renderer/base/math.h"
+
+#include <optional>
+
+namespace cellcut {
+
+struct BsdfSample {
+  Vec3 wi;
+  Vec3 value;  ///< f, 1/sr
+  float pdf;   ///< over solid angle, of both lobes together
+};
+
+/// What the material gives at a point.
+struct BsdfParameters {
+  Vec3 diffuse{0.0f};      ///< albedo of the Lambertian base, already times 1 − metallic
+  Vec3 f0{0.0f};           ///< reflectance at normal incidence
+  float f90 = 0;           ///< and at grazing
+  float dielectricF0 = 0;  ///< of the dielectric layer alone, largest channel: what the base does not get
+  float dielectricF90 = 0;
+  float roughness = 1;  ///< [0, 1]
+};
+
+class Bsdf {
+ public:
+  explicit Bsdf(const BsdfParameters& parameters);
+
+  /// f(wo, wi), 1/sr.
+  Vec3 eval(const Vec3& wo, const Vec3& wi) const;
+  float pdf(const Vec3& wo, const Vec3& wi) const;
+  /// Nothing when the sampled direction is below the surface or reflects nothing.
+  /// \param uLobe chooses between base and reflection
+  std::optional<BsdfSample> sample(const Vec3& wo, float uLobe, Vec2 u) const;
+
+ private:
+  struct Weights {
+    Vec3 value;
+    float pdf;
+  };
+  Weights evalAll(const Vec3& wo, const Vec3& wi) const;
+  float reflectionProbability(const Vec3& wo) const;
+
+  Vec3 diffuse_;  ///< scaled: see the constructor
+  Vec3 f0_;
+  float f90_;
+  float dielectricF0_;
+  float dielectricF90_;
+  float alpha_;
+  bool reflects_;  ///< false: exactly Lambertian
+};
+
+/// Schlick 1994.
+inline float schlickWeight(float cosine) {
+  const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
+  return (m * m) * (m * m) * m;
+}
+
+}  // namespace cellcut

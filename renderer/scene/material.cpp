@@ -1,0 +1,171 @@
+#include "renderer/scene/material.h"
+
+#include "renderer/scene/texture.h"
+
+namespace cellcut {
+namespace {
+
+const Material& materialOf(const Scene& scene, const SurfaceCoordinates& at) {
+  return scene.materials[indexOf(at.mesh->material)];
+}
+
+/// Value of a vertex attribute at a point.
+template <class Attribute>
+auto interpolate(const Attribute& values, const SurfaceCoordinates& at) {
+  const Triangle& t = at.mesh->triangles[at.triangle];
+  const float b0 = 1 - at.barycentric.x - at.barycentric.y;
+  return b0 * values[t.x] + at.barycentric.x * values[t.y] + at.barycentric.y * values[t.z];
+}
+
+/// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent.
+Vec4 slotValue(const Scene& scene, const TextureSlot& slot, TexelEncoding encoding, const SurfaceCoordinates& at) {
+  if (!slot.texture) return Vec4(1.0f);
+  const std::vector<Vec2>& texCoords = at.mesh->texCoords[slot.texCoord];
+  const Vec2 uv = texCoords.empty() ? Vec2(0.0f) : interpolate(texCoords, at);
+  return lookup(scene, scene.textures[indexOf(*slot.texture)], encoding, slotUv(slot, uv));
+}
+
+Vec4 baseColorAlpha(const Scene& scene, const SurfaceCoordinates& at) {
+  const Material& material = materialOf(scene, at);
+  Vec4 color = material.baseColor * slotValue(scene, material.baseColorTexture, TexelEncoding::kSrgb, at);
+  if (!at.mesh->colors.empty()) color *= interpolate(at.mesh->colors, at);
+  return color;
+}
+
+/// Corners of the triangle in a slot's texel coordinates; nothing without a texture.
+struct TexelFootprint {
+  std::array<Vec2, 3> corners;
+  const ImageRgba8* texels;
+  const Texture* texture;
+};
+std::optional<TexelFootprint> footprint(const Scene& scene, const TextureSlot& slot, const Mesh& mesh,
+                                        std::uint32_t triangle) {
+  if (!slot.texture || mesh.texCoords[slot.texCoord].empty()) return std::nullopt;
+  const Texture& texture = scene.textures[indexOf(*slot.texture)];
+  const ImageRgba8& texels = scene.texels[indexOf(texture.texels)];
+  const Vec2 size(static_cast<float>(texels.width()), static_cast<float>(texels.height()));
+  TexelFootprint result{{}, &texels, &texture};
+  for (int k = 0; k < 3; ++k) {
+    const Vec2 uv = mesh.texCoords[slot.texCoord][mesh.triangles[triangle][k]];
+    result.corners[static_cast<std::size_t>(k)] = slotUv(slot, uv) * size;
+  }
+  return result;
+}
+
+/// Texels of one axis that a lookup between `lower` and `upper` can touch: all when the range wraps.
+struct TexelRange {
+  int first;
+  int last;
+};
+TexelRange texelRange(float lower, float upper, int size) {
+  // Half a texel for the filter, one more for the rounding of the coordinates.
+  if (!(lower >= 2 && upper <= static_cast<float>(size) - 2)) return {0, size - 1};
+  return {static_cast<int>(lower) - 2, std::min(static_cast<int>(upper) + 2, size - 1)};
+}
+
+bool anyTexel(const TexelFootprint& area, const auto& lights) {
+  const auto [x0, x1] = std::minmax({area.corners[0].x, area.corners[1].x, area.corners[2].x});
+  const auto [y0, y1] = std::minmax({area.corners[0].y, area.corners[1].y, area.corners[2].y});
+  const TexelRange columns = texelRange(x0, x1, area.texels->width());
+  const TexelRange rows = texelRange(y0, y1, area.texels->height());
+  for (int y = rows.first; y <= rows.last; ++y) {
+    for (int x = columns.first; x <= columns.last; ++x) {
+      if (lights(area.texels->at(x, y))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Vec3 emission(const Scene& scene, const SurfaceCoordinates& at) {
+  const Material& material = materialOf(scene, at);
+  if (!material.emissionTexture.texture) return material.emission;
+  return material.emission * Vec3(slotValue(scene, material.emissionTexture, TexelEncoding::kSrgb, at));
+}
+
+float coverage(const Scene& scene, const SurfaceCoordinates& at) {
+  const Material& material = materialOf(scene, at);
+  if (material.alphaMode == AlphaMode::kOpaque) return 1;
+  const float alpha = std::clamp(baseColorAlpha(scene, at).w, 0.0f, 1.0f);
+  if (material.alphaMode == AlphaMode::kMask) return alpha >= material.alphaCutoff ? 1.0f : 0.0f;
+  return alpha;
+}
+
+Vec3 baseColor(const Scene& scene, const SurfaceCoordinates& at) {
+  return Vec3(baseColorAlpha(scene, at));
+}
+
+Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3& geometricNormal) {
+  if (at.mesh->normals.empty()) return geometricNormal;
+  const Vec3 interpolated = interpolate(at.mesh->normals, at);
+  const float length = glm::length(interpolated);
+  if (!(length > 0)) return geometricNormal;
+  Vec3 normal = interpolated / length;
+
+  const Material& material = materialOf(scene, at);
+  if (material.normalTexture.texture && !at.mesh->tangents.empty()) {
+    const Vec4 tangent4 = interpolate(at.mesh->tangents, at);
+    const Vec3 inPlane = Vec3(tangent4) - glm::dot(Vec3(tangent4), normal) * normal;
+    const float tangentLength = glm::length(inPlane);
+    if (tangentLength > 0) {
+      const Vec3 tangent = inPlane / tangentLength;
+      const Vec3 bitangent = (tangent4.w < 0 ? -1.0f : 1.0f) * glm::cross(normal, tangent);
+      const Vec3 texel = Vec3(slotValue(scene, material.normalTexture, TexelEncoding::kLinear, at)) * 2.0f - Vec3(1);
+      const Vec3 bent =
+          texel.x * material.normalScale * tangent + texel.y * material.normalScale * bitangent + texel.z * normal;
+      const float bentLength = glm::length(bent);
+      if (bentLength > 0) normal = bent / bentLength;
+    }
+  }
+  return glm::dot(normal, geometricNormal) < 0 ? -normal : normal;
+}
+
+Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
+  const Material& material = materialOf(scene, at);
+  const Vec3 color = baseColor(scene, at);
+  const Vec4 metallicRoughness = slotValue(scene, material.metallicRoughnessTexture, TexelEncoding::kLinear, at);
+  const float metallic = std::clamp(material.metallic * metallicRoughness.z, 0.0f, 1.0f);
+  const float specular = material.specular * slotValue(scene, material.specularTexture, TexelEncoding::kLinear, at).w;
+  const float reflectance = (material.ior - 1) / (material.ior + 1);
+  const Vec3 dielectricF0 =
+      glm::min(Vec3(reflectance * reflectance) * material.specularColor *
+                   Vec3(slotValue(scene, material.specularColorTexture, TexelEncoding::kSrgb, at)),
+               Vec3(1.0f)) *
+      specular;
+
+  BsdfParameters parameters;
+  parameters.diffuse = color * (1 - metallic);
+  parameters.f0 = dielectricF0 * (1 - metallic) + color * metallic;
+  parameters.f90 = specular * (1 - metallic) + metallic;
+  parameters.dielectricF0 = maxComponent(dielectricF0);
+  parameters.dielectricF90 = specular;
+  parameters.roughness = std::clamp(material.roughness * metallicRoughness.y, 0.0f, 1.0f);
+  return Bsdf(parameters);
+}
+
+int emissionResolution(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
+  const Material& material = scene.materials[indexOf(mesh.material)];
+  float longest = 1;
+  for (const TextureSlot* slot : {&material.emissionTexture, &material.baseColorTexture}) {
+    if (const auto area = footprint(scene, *slot, mesh, triangle)) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        longest = std::max(longest, glm::length(area->corners[(k + 1) % 3] - area->corners[k]));
+      }
+    }
+  }
+  // The limit keeps a million textured triangles affordable; a coarser mean costs variance, never correctness.
+  return static_cast<int>(std::min(std::ceil(longest), 64.0f));
+}
+
+bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
+  const Material& material = scene.materials[indexOf(mesh.material)];
+  const auto emissive = footprint(scene, material.emissionTexture, mesh, triangle);
+  const auto lit = [&](const ImageRgba8::value_type& t) {
+    return (material.emission.x > 0 && t.x) || (material.emission.y > 0 && t.y) || (material.emission.z > 0 && t.z);
+  };
+  // Coverage is not searched: a triangle that may be transparent everywhere is kept.
+  return !emissive || anyTexel(*emissive, lit);
+}
+
+}  // namespace cellcut

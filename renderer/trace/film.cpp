@@ -1,0 +1,127 @@
+#include "renderer/trace/film.h"
+
+#include <atomic>
+
+#include <oneapi/tbb/parallel_for.h>
+
+namespace cellcut {
+namespace {
+
+using DVec3 = glm::dvec3;
+
+std::vector<float> interleaved(const Image<DVec3>& image) {
+  std::vector<float> values;
+  values.reserve(image.size() * 3);
+  for (const DVec3& v : image) {
+    for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(v[c]));
+  }
+  return values;
+}
+
+}  // namespace
+
+Film::Film(int width, int height, bool auxiliary) : sums_(width, height), pendingRadiance_(width, height) {
+  if (auxiliary) {
+    auxiliary_ = Image<Auxiliary>(width, height);
+    pendingAuxiliary_ = Image<PendingAuxiliary>(width, height);
+  }
+}
+
+void Film::record(int x, int y, const PathSample& sample) {
+  pendingRadiance_.at(x, y) = sample.radiance;
+  if (!auxiliary_.empty()) pendingAuxiliary_.at(x, y) = {sample.albedo, sample.normal, sample.depth};
+}
+
+void Film::commit() {
+  ++passes_;
+  const auto n = static_cast<double>(passes_);
+  std::atomic<std::uint64_t> nan{0}, inf{0};
+  tbb::parallel_for(0, height(), [&](int y) {
+    for (int x = 0; x < width(); ++x) {
+      Vec3 radiance = pendingRadiance_.at(x, y);
+      if (!isFinite(radiance)) {
+        const bool isNan = std::isnan(radiance.x) || std::isnan(radiance.y) || std::isnan(radiance.z);
+        (isNan ? nan : inf).fetch_add(1, std::memory_order_relaxed);
+        radiance = Vec3(0);
+      }
+      Sums& sums = sums_.at(x, y);
+      const DVec3 before = DVec3(radiance) - sums.mean;
+      sums.mean += before / n;
+      sums.squares += before * (DVec3(radiance) - sums.mean);
+      if (!auxiliary_.empty()) {
+        Auxiliary& auxiliary = auxiliary_.at(x, y);
+        const PendingAuxiliary& pending = pendingAuxiliary_.at(x, y);
+        auxiliary.albedo += (DVec3(pending.albedo) - auxiliary.albedo) / n;
+        auxiliary.normal += (DVec3(pending.normal) - auxiliary.normal) / n;
+        auxiliary.depth += (static_cast<double>(pending.depth) - auxiliary.depth) / n;
+      }
+    }
+  });
+  bad_.nan += nan;
+  bad_.inf += inf;
+}
+
+ImageRgb Film::mean() const {
+  ImageRgb image(width(), height());
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = Vec3(sums_[i].mean);
+  return image;
+}
+
+Image<glm::dvec3> Film::errors() const {
+  Image<DVec3> image(width(), height());
+  if (passes_ < 2) return image;
+  const auto n = static_cast<double>(passes_);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = glm::sqrt(sums_[i].squares / (n * (n - 1)));
+  return image;
+}
+
+ImageRgb Film::standardError() const {
+  const Image<DVec3> errors = this->errors();
+  ImageRgb image(width(), height());
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = Vec3(errors[i]);
+  return image;
+}
+
+double Film::relativeError() const {
+  if (passes_ < 2) return std::numeric_limits<double>::infinity();
+  const Image<DVec3> errors = this->errors();
+  double mean = 0;
+  for (const Sums& sums : sums_) mean += (sums.mean.x + sums.mean.y + sums.mean.z) / 3;
+  mean /= static_cast<double>(sums_.size());
+  if (mean == 0) return 0;
+  // In units of the picture's mean, so that squares neither overflow nor vanish.
+  double sum = 0;
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const DVec3 error = errors[i] / mean, value = sums_[i].mean / mean;
+    for (int c = 0; c < 3; ++c) sum += error[c] * error[c] / (value[c] * value[c] + 0.01);
+  }
+  return std::sqrt(sum / (3 * static_cast<double>(sums_.size())));
+}
+
+std::size_t Film::bytes() const {
+  return sums_.bytes() + auxiliary_.bytes() + pendingRadiance_.bytes() + pendingAuxiliary_.bytes();
+}
+
+LayeredImage Film::layers() const {
+  Image<DVec3> means(width(), height());
+  for (std::size_t i = 0; i < means.size(); ++i) means[i] = sums_[i].mean;
+  LayeredImage image{width(), height(), {}, {}};
+  image.layers.push_back({"", {"R", "G", "B"}, interleaved(means)});
+  if (!auxiliary_.empty()) {
+    Image<DVec3> albedo(width(), height()), normal(width(), height());
+    std::vector<float> depth;
+    depth.reserve(auxiliary_.size());
+    for (std::size_t i = 0; i < auxiliary_.size(); ++i) {
+      albedo[i] = auxiliary_[i].albedo;
+      normal[i] = auxiliary_[i].normal;
+      depth.push_back(static_cast<float>(auxiliary_[i].depth));
+    }
+    image.layers.push_back({"albedo", {"R", "G", "B"}, interleaved(albedo)});
+    image.layers.push_back({"normal", {"X", "Y", "Z"}, interleaved(normal)});
+    image.layers.push_back({"depth", {"Z"}, std::move(depth)});
+  }
+  image.layers.push_back({"error", {"R", "G", "B"}, interleaved(errors())});
+  return image;
+}
+
+}  // namespace cellcut

@@ -1,0 +1,201 @@
+#include "renderer/trace/integrator.h"
+
+#include "renderer/scene/material.h"
+
+namespace cellcut {
+namespace {
+
+/// From this vertex on a path survives with the probability of its throughput. Two free bounces keep the variance of
+/// what is seen first low.
+constexpr int kRouletteDepth = 2;
+
+/// Weight of a sample of density a against a strategy of density b. Source: Veach 1997, power heuristic, β = 2; as a
+/// ratio, so that no square overflows.
+float powerHeuristic(float a, float b) {
+  const float ratio = b / a;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// Where a ray met a triangle.
+struct SurfacePoint {
+  SurfaceCoordinates at;
+  Vec3 p;
+  Vec3 error;   ///< bound on the rounding error of p, per axis
+  Vec3 normal;  ///< unit geometric normal, front side
+};
+
+SurfacePoint surfaceAt(const Scene& scene, const Hit& hit) {
+  const Mesh& mesh = scene.meshes[indexOf(hit.mesh)];
+  const Triangle& t = mesh.triangles[hit.triangle];
+  const Vec3 &v0 = mesh.positions[t.x], &v1 = mesh.positions[t.y], &v2 = mesh.positions[t.z];
+  const float b0 = 1 - hit.barycentric.x - hit.barycentric.y;
+  const Vec3 p = b0 * v0 + hit.barycentric.x * v1 + hit.barycentric.y * v2;
+  return {{&mesh, hit.triangle, hit.barycentric},
+          p,
+          triangleError(v0, v1, v2),
+          triangleGeometry(mesh, hit.triangle).normal};
+}
+
+/// A path vertex that scatters.
+struct Vertex {
+  SurfacePoint surface;
+  Vec3 normal;  ///< geometric, on the side of wo
+  Frame frame;  ///< around the shading normal
+  Vec3 wo;      ///< in the frame
+  Bsdf bsdf;
+
+  ShadingPoint shadingPoint() const { return {surface.p, frame.z}; }
+  /// Cosine-weighted BSDF towards a world direction with the density that sampleBsdf has for it; 0 through the surface.
+  struct Scattering {
+    Vec3 value{0.0f};
+    float pdf = 0;
+  };
+  Scattering scattering(const Vec3& direction) const {
+    const Vec3 wi = frame.toLocal(direction);
+    if (!(wi.z > 0 && glm::dot(direction, normal) > 0)) return {};
+    return {bsdf.eval(wo, wi) * wi.z, bsdf.pdf(wo, wi)};
+  }
+};
+
+/// \param outgoing  unit, world space, away from the surface
+Vertex makeVertex(const Scene& scene, const SurfacePoint& surface, const Vec3& outgoing) {
+  const Vec3 normal = glm::dot(surface.normal, outgoing) < 0 ? -surface.normal : surface.normal;
+  Vec3 shading = shadingNormal(scene, surface.at, normal);
+  // A shading normal that looks away from the viewer would make the surface black: there the flat one serves.
+  if (!(glm::dot(shading, outgoing) > 0)) shading = normal;
+  const Frame frame(shading);
+  return {surface, normal, frame, frame.toLocal(outgoing), bsdfAt(scene, surface.at)};
+}
+
+/// The vertex that a bounce ray left from: what MIS at the next hit needs.
+struct Bounce {
+  ShadingPoint from;
+  float pdf;
+};
+
+class Path {
+ public:
+  Path(const PathContext& context, PixelSampler& random, PathCounts& counts)
+      : context_(context), random_(random), counts_(counts) {}
+
+  PathSample trace(Ray ray) {
+    Sample4 numbers = random_.next();
+    for (int depth = 0;; ++depth) {
+      if (context_.record) context_.record->rays.push_back({ray, false});
+      const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
+      if (!hit) {
+        addEnvironment(ray.direction);
+        break;
+      }
+      const SurfacePoint surface = surfaceAt(context_.scene, *hit);
+      const Material& material = context_.scene.materials[indexOf(surface.at.mesh->material)];
+      if (depth == 0) recordFirstHit(surface, *hit, ray);
+      if (material.unlit) {
+        result_.radiance += throughput_ * baseColor(context_.scene, surface.at);
+        break;
+      }
+      addEmission(surface, material, *hit, ray.direction);
+      if (depth == context_.maxDepth) break;
+
+      const Vertex vertex = makeVertex(context_.scene, surface, -ray.direction);
+      if (depth == 0) result_.normal = vertex.frame.z;
+      addDirectLight(vertex);
+      if (depth + 1 == context_.maxDepth && !context_.bounceCanFind) break;
+      numbers = random_.next();
+      const std::optional<Ray> next = scatter(vertex, numbers);
+      if (!next || !survives(depth, numbers)) break;
+      ++counts_.bounceRays;
+      ray = *next;
+    }
+    return result_;
+  }
+
+ private:
+  void recordFirstHit(const SurfacePoint& surface, const Hit& hit, const Ray& ray) {
+    result_.depth = hit.t;
+    result_.albedo = glm::clamp(baseColor(context_.scene, surface.at), 0.0f, 1.0f);
+    result_.normal = glm::dot(surface.normal, ray.direction) < 0 ? surface.normal : -surface.normal;
+  }
+
+  void addEnvironment(const Vec3& direction) {
+    if (!context_.scene.environment) return;
+    float weight = 1;
+    if (bounce_) {
+      const std::optional<LightId> light = context_.lights.lightTowards(direction);
+      if (!light) return;
+      weight = powerHeuristic(bounce_->pdf, context_.sampler.pmf(bounce_->from, *light) *
+                                                context_.lights.environmentPdf(*light, direction));
+    }
+    result_.radiance += throughput_ * weight * environmentRadiance(*context_.scene.environment, direction);
+  }
+
+  void addEmission(const SurfacePoint& surface, const Material& material, const Hit& hit, const Vec3& direction) {
+    if (isBlack(material.emission)) return;
+    if (!material.doubleSided && glm::dot(surface.normal, direction) >= 0) return;
+    float weight = 1;
+    if (bounce_) {
+      const std::optional<LightId> light = context_.lights.lightAt(hit.mesh, hit.triangle);
+      if (!light) return;
+      weight = powerHeuristic(bounce_->pdf, context_.sampler.pmf(bounce_->from, *light) *
+                                                context_.lights.trianglePdf(*light, bounce_->from.p, surface.p));
+    }
+    result_.radiance += throughput_ * weight * emission(context_.scene, surface.at);
+  }
+
+  void addDirectLight(const Vertex& vertex) {
+    if (context_.record) context_.record->vertices.push_back(vertex.shadingPoint());
+    const Sample4 numbers = random_.next();
+    const std::optional<SampledLight> choice = context_.sampler.sample(vertex.shadingPoint(), numbers.wide(0));
+    if (!choice) return;
+    const std::optional<LightSample> light =
+        context_.lights.sample(choice->light, vertex.surface.p, {numbers[1], numbers[2]});
+    if (!light) {
+      if (context_.lights.liesAt(choice->light, vertex.surface.p)) ++counts_.dropped;
+      return;
+    }
+    const Vertex::Scattering scattering = vertex.scattering(light->wi);
+    if (isBlack(scattering.value)) return;
+
+    const Vec3 origin = offsetRayOrigin(vertex.surface.p, vertex.surface.error, vertex.normal, light->wi);
+    const Ray ray = light->distant ? Ray{origin, light->wi} : shadowRay(origin, light->end);
+    ++counts_.shadowRays;
+    if (context_.record) context_.record->rays.push_back({ray, true});
+    if (context_.accel.occluded(ray, static_cast<std::uint32_t>(numbers.extra))) return;
+    const float pdf = choice->pmf * light->pdf;
+    const float weight = light->delta ? 1.0f : powerHeuristic(pdf, scattering.pdf);
+    result_.radiance += throughput_ * scattering.value * light->radiance * (weight / pdf);
+  }
+
+  std::optional<Ray> scatter(const Vertex& vertex, const Sample4& numbers) {
+    const std::optional<BsdfSample> sample = vertex.bsdf.sample(vertex.wo, numbers[0], {numbers[1], numbers[2]});
+    if (!sample) return std::nullopt;
+    const Vec3 direction = glm::normalize(vertex.frame.toWorld(sample->wi));
+    if (!(glm::dot(direction, vertex.normal) > 0)) return std::nullopt;
+    throughput_ *= sample->value * (sample->wi.z / sample->pdf);
+    bounce_ = Bounce{vertex.shadingPoint(), sample->pdf};
+    return Ray{offsetRayOrigin(vertex.surface.p, vertex.surface.error, vertex.normal, direction), direction};
+  }
+
+  bool survives(int depth, const Sample4& numbers) {
+    if (depth < kRouletteDepth) return true;
+    const float probability = std::min(1.0f, maxComponent(throughput_));
+    if (!(numbers[3] < probability)) return false;
+    throughput_ /= probability;
+    return true;
+  }
+
+  const PathContext& context_;
+  PixelSampler& random_;
+  PathCounts& counts_;
+  PathSample result_;
+  Vec3 throughput_{1.0f};
+  std::optional<Bounce> bounce_;  ///< nothing on the camera ray
+};
+
+}  // namespace
+
+PathSample tracePath(const PathContext& context, const Ray& cameraRay, PixelSampler& random, PathCounts& counts) {
+  return Path(context, random, counts).trace(cameraRay);
+}
+
+}  // namespace cellcut

@@ -1,0 +1,225 @@
+#include "app/options.h"
+
+#include "renderer/base/error.h"
+#include "tests/support/temporary_directory.h"
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cellcut {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Parses the options behind `cellcut render scene.glb -o FOLDER/out.exr`.
+class RenderOptionsTest : public testing::Test {
+ protected:
+  RenderOptions parse(const std::vector<std::string>& more) {
+    std::vector<std::string> args{"scene.glb", "-o", (folder_ / "out.exr").string()};
+    args.insert(args.end(), more.begin(), more.end());
+    return parseAll(args);
+  }
+  RenderOptions parseAll(std::vector<std::string> args) {
+    CLI::App verb;
+    RenderOptions options;
+    addRenderOptions(verb, options);
+    std::reverse(args.begin(), args.end());  // the parser takes them from the back
+    verb.parse(args);
+    return options;
+  }
+  std::string refusalOf(const std::vector<std::string>& more) {
+    try {
+      parse(more);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  test::TemporaryDirectory folder_;
+};
+
+TEST_F(RenderOptionsTest, DefaultsAreTheRenderersOwn) {
+  const RenderOptions options = parse({});
+  EXPECT_EQ(options.scene, "scene.glb");
+  EXPECT_EQ(options.stop.kind, StopRule::Kind::kPasses);
+  EXPECT_EQ(options.stop.passes, 64u);
+  EXPECT_EQ(options.settings.width, RenderSettings{}.width);
+  EXPECT_EQ(options.settings.strategy, RenderSettings{}.strategy);
+  EXPECT_EQ(options.settings.maxDepth, 8);
+  EXPECT_EQ(options.load.punctualScale, 1.0);
+  EXPECT_FALSE(options.environment.file.has_value());
+  EXPECT_FALSE(options.report.has_value());
+}
+
+TEST_F(RenderOptionsTest, EveryOptionReachesItsSetting) {
+  const RenderOptions options = parse({"--strategy",
+                                       "power",
+                                       "--spp",
+                                       "7",
+                                       "--size",
+                                       "320x180",
+                                       "--max-depth",
+                                       "0",
+                                       "--seed",
+                                       "18446744073709551615",
+                                       "--threads",
+                                       "3",
+                                       "--camera",
+                                       "door",
+                                       "--sampler",
+                                       "independent",
+                                       "--environment",
+                                       "sky.hdr",
+                                       "--environment-scale",
+                                       "2.5",
+                                       "--environment-rotation",
+                                       "-90",
+                                       "--punctual-scale",
+                                       "0.5",
+                                       "--report",
+                                       (folder_ / "r.json").string()});
+  EXPECT_EQ(options.settings.strategy, Strategy::kPower);
+  EXPECT_EQ(options.stop.passes, 7u);
+  EXPECT_EQ(options.settings.width, 320);
+  EXPECT_EQ(options.settings.height, 180);
+  EXPECT_EQ(options.settings.maxDepth, 0);
+  EXPECT_EQ(options.settings.seed, 18446744073709551615u);
+  EXPECT_EQ(options.settings.threads, 3);
+  EXPECT_EQ(options.camera, "door");
+  EXPECT_EQ(options.settings.sampling, PixelSampling::kIndependent);
+  EXPECT_EQ(options.environment.file, "sky.hdr");
+  EXPECT_EQ(options.environment.scale, 2.5);
+  EXPECT_EQ(options.environment.rotation, -90);
+  EXPECT_EQ(options.load.punctualScale, 0.5);
+  EXPECT_EQ(options.report, folder_ / "r.json");
+}
+
+TEST_F(RenderOptionsTest, TimeAndNoiseReplaceTheNumberOfSamples) {
+  EXPECT_EQ(parse({"--time", "1.5"}).stop.kind, StopRule::Kind::kSeconds);
+  EXPECT_EQ(parse({"--time", "1.5"}).stop.seconds, 1.5);
+  EXPECT_EQ(parse({"--noise", "0.05"}).stop.kind, StopRule::Kind::kNoise);
+  EXPECT_EQ(parse({"--noise", "0.05"}).stop.noise, 0.05);
+}
+
+TEST_F(RenderOptionsTest, OnlyOneStopRuleIsAccepted) {
+  EXPECT_THROW(parse({"--spp", "4", "--time", "1"}), CLI::ExcludesError);
+  EXPECT_THROW(parse({"--spp", "4", "--noise", "1"}), CLI::ExcludesError);
+  EXPECT_THROW(parse({"--time", "4", "--noise", "1"}), CLI::ExcludesError);
+}
+
+TEST_F(RenderOptionsTest, OptionsGivenTwiceAreRefused) {
+  EXPECT_THROW(parse({"--spp", "4", "--spp", "8"}), CLI::ParseError);
+}
+
+TEST_F(RenderOptionsTest, ValuesOutsideTheirRangesAreRefused) {
+  const std::vector<std::vector<std::string>> refused{{"--spp", "0"},
+                                                      {"--spp", "4x"},
+                                                      {"--time", "0"},
+                                                      {"--time", "nan"},
+                                                      {"--noise", "-1"},
+                                                      {"--noise", "inf"},
+                                                      {"--size", "0x10"},
+                                                      {"--size", "10x16385"},
+                                                      {"--size", "10"},
+                                                      {"--size", "10x10x10"},
+                                                      {"--size", "10 x 10"},
+                                                      {"--max-depth", "-1"},
+                                                      {"--threads", "1025"},
+                                                      {"--punctual-scale", "-1"},
+                                                      {"--punctual-scale", "Blender "},
+                                                      {"--environment-scale", "-1"},
+                                                      {"--environment-rotation", "nan"}};
+  for (const auto& args : refused) {
+    EXPECT_THAT(refusalOf(args), HasSubstr(args[0] + ": '")) << args[1];
+  }
+}
+
+TEST_F(RenderOptionsTest, LargestPictureIsAccepted) {
+  EXPECT_EQ(parse({"--size", "16384x1"}).settings.width, 16384);
+  EXPECT_EQ(parse({"--size", "1x16384"}).settings.height, 16384);
+}
+
+TEST_F(RenderOptionsTest, WordBlenderUndoesLumenPerWatt) {
+  EXPECT_DOUBLE_EQ(parse({"--punctual-scale", "blender"}).load.punctualScale * 683, 1);
+}
+
+TEST_F(RenderOptionsTest, UnknownStrategyAndSamplerListTheKnownOnes) {
+  for (const StrategyName& s : kStrategies) {
+    EXPECT_EQ(parse({"--strategy", std::string(s.name)}).settings.strategy, s.strategy);
+    EXPECT_THAT(refusalOf({"--strategy", "best"}), HasSubstr(std::string(s.name)));
+  }
+  EXPECT_THAT(refusalOf({"--sampler", "halton"}), HasSubstr("sobol, independent"));
+}
+
+TEST_F(RenderOptionsTest, EnvironmentSettingsNeedAnEnvironment) {
+  EXPECT_THROW(parse({"--environment-scale", "2"}), CLI::RequiresError);
+  EXPECT_THROW(parse({"--environment-rotation", "2"}), CLI::RequiresError);
+}
+
+TEST_F(RenderOptionsTest, SceneAndOutputAreRequired) {
+  EXPECT_THROW(parseAll({"scene.glb"}), CLI::RequiredError);
+  EXPECT_THROW(parseAll({"-o", (folder_ / "out.exr").string()}), CLI::RequiredError);
+}
+
+TEST_F(RenderOptionsTest, ExtensionOfTheOutputNamesItsKind) {
+  const auto kindOf = [this](const char* name) {
+    return parseAll({"s.glb", "-o", (folder_ / name).string()}).output.kind;
+  };
+  EXPECT_EQ(kindOf("a.exr"), PictureKind::kExr);
+  EXPECT_EQ(kindOf("a.EXR"), PictureKind::kExr);
+  EXPECT_EQ(kindOf("a.pfm"), PictureKind::kPfm);
+  EXPECT_EQ(kindOf("a.png"), PictureKind::kPng);
+  for (const char* name : {"a.jpg", "a", "a.png.", "png", ".exr"}) EXPECT_THROW(kindOf(name), InputError) << name;
+}
+
+TEST_F(RenderOptionsTest, OutputInAFolderThatIsNotThereIsRefused) {
+  EXPECT_THROW(parseAll({"s.glb", "-o", (folder_ / "no" / "a.exr").string()}), InputError);
+  EXPECT_THAT(refusalOf({"--report", (folder_ / "no" / "r.json").string()}), HasSubstr("folder does not exist"));
+}
+
+TEST_F(RenderOptionsTest, OutputThatIsAFolderIsRefused) {
+  std::filesystem::create_directory(folder_ / "a.exr");
+  EXPECT_THROW(parseAll({"s.glb", "-o", (folder_ / "a.exr").string()}), InputError);
+}
+
+TEST_F(RenderOptionsTest, CheckingTheOutputLeavesNoFile) {
+  parse({"--report", (folder_ / "r.json").string()});
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+Scene sceneWithCameras(const std::vector<std::string>& names) {
+  Scene scene;
+  for (const std::string& name : names) {
+    scene.cameras.emplace_back();
+    scene.cameras.back().name = name;
+  }
+  return scene;
+}
+
+TEST(FindCamera, FindsByNameThenByIndex) {
+  const Scene scene = sceneWithCameras({"front", "2", "back"});
+  EXPECT_EQ(findCamera(scene, ""), 0u);
+  EXPECT_EQ(findCamera(scene, "back"), 2u);
+  EXPECT_EQ(findCamera(scene, "0"), 0u);
+  EXPECT_EQ(findCamera(scene, "2"), 1u);  // a name, though it looks like a number
+}
+
+TEST(FindCamera, RefusalListsTheCameras) {
+  const Scene scene = sceneWithCameras({"front", "back"});
+  for (const char* text : {"2", "-1", "1x", "Front", "99999999999999999999"}) {
+    try {
+      findCamera(scene, text);
+      FAIL() << "accepted " << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("0 'front', 1 'back'"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cellcut
