@@ -127,8 +127,7 @@ void addView(CLI::App& verb, RenderOptions& o) {
   addText(
       verb, "--punctual-scale", "X|blender",
       [&o](const std::string& t) { o.load.punctualScale = parsePunctualScale(t); },
-      "Multiplies point, spot and directional lights; the word blender is 1/683 and undoes what Blender's exporter "
-      "multiplies by");
+      "Multiplies point, spot and directional lights; see below");
 }
 
 std::string describeCameras(const Scene& scene) {

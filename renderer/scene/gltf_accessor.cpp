@@ -38,20 +38,27 @@ std::size_t componentBytes(int componentType) {
   }
 }
 
-/// Bytes of an element; the columns of a matrix begin at multiples of four (glTF 2.0 section 3.6.2.4).
-std::size_t elementBytes(int type, std::size_t componentSize) {
-  const auto matrix = [&](std::size_t n) { return n * ((n * componentSize + 3) / 4 * 4); };
+/// Columns of a matrix, 1 for everything else.
+std::size_t columnsOf(int type) {
   switch (type) {
     case TINYGLTF_TYPE_MAT2:
-      return matrix(2);
+      return 2;
     case TINYGLTF_TYPE_MAT3:
-      return matrix(3);
+      return 3;
     case TINYGLTF_TYPE_MAT4:
-      return matrix(4);
+      return 4;
     default:
-      return static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type))) *
-             componentSize;
+      return 1;
   }
+}
+
+/// Bytes from the first to the last component of an element. Columns of a matrix begin at multiples of four
+/// (glTF 2.0 section 3.6.2.4), and the last one need not be filled up.
+std::size_t occupiedBytes(int type, std::size_t componentSize) {
+  const std::size_t columns = columnsOf(type);
+  const auto components = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+  const std::size_t column = components / columns * componentSize;
+  return (columns - 1) * ((column + 3) / 4 * 4) + column;
 }
 
 struct Refusal {
@@ -168,7 +175,8 @@ AccessorView viewAccessor(const GltfDocument& document, int index) {
   view.normalized = accessor.normalized;
   const std::size_t componentSize = componentBytes(view.componentType);
   if (componentSize == 0) refuse("componentType " + std::to_string(view.componentType) + " is none of glTF's");
-  view.elementBytes = elementBytes(accessor.type, componentSize);
+  view.elementBytes = occupiedBytes(accessor.type, componentSize);
+  const bool isMatrix = columnsOf(accessor.type) > 1;
 
   if (accessor.bufferView == -1) {
     if (view.count > kMaxZeroElements) refuse("has no data for its " + std::to_string(view.count) + " elements");
@@ -177,7 +185,7 @@ AccessorView viewAccessor(const GltfDocument& document, int index) {
       refuse("bufferView " + std::to_string(accessor.bufferView) + " does not exist");
     }
     view.stride = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-    if (view.stride == 0) view.stride = view.elementBytes;
+    if (view.stride == 0) view.stride = isMatrix ? (view.elementBytes + 3) / 4 * 4 : view.elementBytes;
     if (view.stride < view.elementBytes) refuse("its bufferView's byteStride is smaller than an element");
     view.data = checkedStretch(document, refuse, accessor.bufferView, accessor.byteOffset, view.count,
                                view.elementBytes, view.stride);

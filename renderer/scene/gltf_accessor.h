@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace cellcut {

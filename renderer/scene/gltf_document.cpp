@@ -31,6 +31,8 @@ ParseContext& contextOf(void* user) {
 
 bool readBeside(std::vector<unsigned char>* bytes, std::string*, const std::string& reference, void* user) {
   ParseContext& context = contextOf(user);
+  // Data of a kind that the parser does not know, such as WebP. A buffer cannot do without; an image may never be used.
+  if (reference.starts_with("data:")) return false;
   try {
     const std::vector<std::byte> file = context.folder.read(reference);
     bytes->resize(file.size());
@@ -41,22 +43,15 @@ bool readBeside(std::vector<unsigned char>* bytes, std::string*, const std::stri
   }
 }
 
-bool sizeBeside(std::size_t* size, std::string*, const std::string& reference, void* user) {
-  ParseContext& context = contextOf(user);
-  try {
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(context.folder.resolve(reference), error);
-    *size = error ? 0 : static_cast<std::size_t>(bytes);  // readBeside says what is wrong
-    return true;
-  } catch (const InputError& error) {
-    return context.fail(error);
-  }
-}
-
 /// tinygltf asks for sizes, and limits them, from version 2.9 on.
 template <class Callbacks, class Parser>
 void setSizeLimits(Callbacks& callbacks, Parser& parser) {
-  if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = sizeBeside;
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 1;  // any size that it accepts: readBeside looks at the real one
+      return true;
+    };
+  }
   if constexpr (requires { parser.SetMaxExternalFileSize(std::size_t{}); }) {
     parser.SetMaxExternalFileSize(kMaxSceneFileBytes);
   }
@@ -85,8 +80,8 @@ std::string firstLine(const std::string& text) {
   return line;
 }
 
-/// Returns the parser's complaint, empty if there is none.
-std::string parse(std::span<const std::byte> file, ParseContext& context, tinygltf::Model& model) {
+/// False if the parser cannot go on; `complaint` then says why, and else what it goes on without.
+bool parse(std::span<const std::byte> file, ParseContext& context, tinygltf::Model& model, std::string& complaint) {
   tinygltf::TinyGLTF parser;
   tinygltf::FsCallbacks callbacks{};
   callbacks.FileExists = [](const std::string&, void*) { return true; };  // so that reading reports what is wrong
@@ -111,8 +106,8 @@ std::string parse(std::span<const std::byte> file, ParseContext& context, tinygl
   } catch (const std::exception& error) {  // the JSON library's, and at() on empty buffers
     errors += error.what();
   }
-  // The parser reports some broken parts and goes on without them.
-  return parsed && errors.empty() ? std::string() : firstLine(errors);
+  if (!parsed || !errors.empty()) complaint = firstLine(errors);
+  return parsed;
 }
 
 }  // namespace
@@ -136,10 +131,10 @@ GltfDocument readGltf(const std::filesystem::path& file) {
   checkJsonShape(gltfJson(bytes, document.name), document.name);
 
   ParseContext context{folder, document.images};
-  const std::string complaint = parse(bytes, context, document.model);
+  const bool parsed = parse(bytes, context, document.model, document.complaint);
   checkExtensions(document);  // first: an unknown format inside explains what else is wrong
   if (context.error) throw *context.error;
-  if (!complaint.empty()) throw InputError(document.name, complaint);
+  if (!parsed) throw InputError(document.name, document.complaint);
   document.images.resize(document.model.images.size());
   checkDocument(document);
   return document;

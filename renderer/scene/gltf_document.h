@@ -16,6 +16,7 @@ struct GltfDocument {
   std::string name;  ///< of the file, for messages
   tinygltf::Model model;
   std::vector<std::vector<std::byte>> images;  ///< PNG or JPEG as stored, of images that lie outside of buffers
+  std::string complaint;                       ///< what the parser could not read and left out; empty if nothing
 };
 
 /// Reads and parses a .gltf or .glb with the files beside it, and runs checkDocument on it.

@@ -89,6 +89,7 @@ bool hasPunctualLights(const Scene& scene) {
 
 void addWarnings(const GltfDocument& document, const std::vector<UsedPrimitive>& used, const LoadOptions& options,
                  Scene& scene) {
+  if (!document.complaint.empty()) warnOnce(scene, "not all of the file could be read: " + document.complaint);
   warnOfIgnoredExtensions(document, scene);
   const bool anyTargets =
       std::any_of(used.begin(), used.end(), [](const auto& u) { return !u.primitive->targets.empty(); });

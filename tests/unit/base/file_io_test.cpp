@@ -1,6 +1,6 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/temporary_directory.h"
 
 #include <csignal>
 #include <iterator>
@@ -25,7 +25,7 @@ std::string contentOf(const fs::path& file) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::ptrdiff_t fileCount(const TempFolder& folder) {
+std::ptrdiff_t fileCount(const test::TemporaryDirectory& folder) {
   return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
 }
 
@@ -49,7 +49,7 @@ class FileSizeLimit {
 };
 
 TEST(FileIo, WritesWhatItReads) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writeFileAtomically(folder / "a", bytesOf("first"));
   EXPECT_EQ(contentOf(folder / "a"), "first");
   writeFileAtomically(folder / "a", bytesOf("2"));
@@ -58,18 +58,18 @@ TEST(FileIo, WritesWhatItReads) {
 }
 
 TEST(FileIo, WritesAndReadsEmptyFiles) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writeFileAtomically(folder / "a", {});
   EXPECT_EQ(contentOf(folder / "a"), "");
 }
 
 TEST(FileIo, RefusesToWriteIntoMissingDirectory) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   EXPECT_THROW(writeFileAtomically(folder / "missing" / "a", bytesOf("x")), InputError);
 }
 
 TEST(FileIo, RefusesToReplaceDirectory) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   fs::create_directory(folder / "a");
   EXPECT_THROW(writeFileAtomically(folder / "a", bytesOf("x")), InputError);
   EXPECT_EQ(fileCount(folder), 1);
@@ -77,7 +77,7 @@ TEST(FileIo, RefusesToReplaceDirectory) {
 
 TEST(FileIo, RefusesToWriteIntoReadOnlyDirectory) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writeFileAtomically(folder / "a", bytesOf("old"));
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_THROW(writeFileAtomically(folder / "a", bytesOf("new")), InputError);
@@ -86,7 +86,7 @@ TEST(FileIo, RefusesToWriteIntoReadOnlyDirectory) {
 }
 
 TEST(FileIo, OldFileStaysWhenTheDiskIsFull) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writeFileAtomically(folder / "a", bytesOf("old"));
   const std::vector<std::byte> large(1 << 20);
   {
@@ -98,14 +98,14 @@ TEST(FileIo, OldFileStaysWhenTheDiskIsFull) {
 }
 
 TEST(FileIo, RefusesToReadWhatIsNoRegularFile) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   EXPECT_THROW(readFile(folder / "missing", 1000), InputError);
   EXPECT_THROW(readFile(folder.path(), 1000), InputError);
   EXPECT_THROW(readFile("/dev/zero", 1000), InputError);
 }
 
 TEST(FileIo, RefusesToReadLargerFileThanAllowed) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   writeFileAtomically(folder / "a", bytesOf("12345"));
   EXPECT_EQ(readFile(folder / "a", 5).size(), 5u);
   EXPECT_THROW(readFile(folder / "a", 4), InputError);

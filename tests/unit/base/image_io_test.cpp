@@ -3,7 +3,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/rng.h"
 #include "renderer/base/tone_map.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/temporary_directory.h"
 
 #include <bit>
 #include <string_view>
@@ -52,7 +52,7 @@ std::string messageOf(std::span<const std::byte> encoded) {
 }
 
 TEST(ImageIo, PfmKeepsEveryBit) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   ImageRgb image = noise(5, 3);
   image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
   writePfm(folder / "a.pfm", image);
@@ -60,7 +60,7 @@ TEST(ImageIo, PfmKeepsEveryBit) {
 }
 
 TEST(ImageIo, ExrKeepsEveryBit) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   ImageRgb image = noise(37, 21);
   image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
   writeExr(folder / "a.exr", oneLayer(image));
@@ -68,7 +68,7 @@ TEST(ImageIo, ExrKeepsEveryBit) {
 }
 
 TEST(ImageIo, PngHasToneMappedPixels) {
-  const TempFolder folder;
+  const test::TemporaryDirectory folder;
   ImageRgb image(2, 2);
   image.at(1, 0) = {0.1f, 0.2f, 0.4f};
   image.at(0, 1) = {std::numeric_limits<float>::quiet_NaN(), 0.4f, -1};
