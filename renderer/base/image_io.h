@@ -36,8 +36,10 @@ struct LayeredImage {
   std::map<std::string, std::string> metadata;
 };
 
-/// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey), .pfm or
-/// .hdr. \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than kMaxImagePixels.
+/// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey; the display
+/// window, black where there is no data), .pfm or .hdr. The numbers are taken as Rec. 709, whatever primaries a file
+/// names. \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than
+/// kMaxImagePixels.
 ImageRgb readImage(const std::filesystem::path& file);
 
 /// The same from memory; the kind is known by its first bytes. `name` is used in messages only.
