@@ -56,6 +56,7 @@ int parseAndRun(std::span<const char* const> args, const Console& console) {
   program.set_version_flag("--version", "cellcut " CELLCUT_VERSION);
   program.require_subcommand(0, 1);
   program.get_formatter()->column_width(36);
+  program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.footer("Each verb has its own help with examples: cellcut render --help");
   const std::array verbs{addRender(program), addCompare(program), addGenerate(program), addInfo(program)};
   try {

@@ -49,14 +49,6 @@ void parseSize(const std::string& text, RenderSettings& settings) {
   settings.height = parseSide(text.substr(cross + 1));
 }
 
-std::string describeStrategies() {
-  std::string text = "How a light is chosen:";
-  for (const StrategyName& s : kStrategies) {
-    text += (&s == kStrategies.data() ? " " : "; ") + std::string(s.name) + ": " + std::string(s.description);
-  }
-  return text + " (default " + std::string(nameOf(RenderSettings{}.strategy)) + ")";
-}
-
 void addFiles(CLI::App& verb, RenderOptions& o) {
   addText(
       verb, "SCENE", "", [&o](const std::string& t) { o.scene = t; }, "Scene: .gltf, .glb or .obj")
@@ -88,17 +80,16 @@ void addStopRule(CLI::App& verb, StopRule& stop) {
   CLI::Option* sppOption = addText(verb, "--spp", "N", spp, "Stop after N samples per pixel (default 64)");
   CLI::Option* timeOption =
       addText(verb, "--time", "SECONDS", time, "Stop at the end of the pass in which SECONDS of rendering run out");
-  CLI::Option* noiseOption = addText(
-      verb, "--noise", "REL", noise,
-      "Stop when the relative error (root of relMSE), estimated from the variance of the samples themselves, is "
-      "below REL; stopping on it favours pictures that look finished early, which is a small bias of its own");
+  CLI::Option* noiseOption =
+      addText(verb, "--noise", "REL", noise, "Stop when the estimated relative error is below REL; see below");
   sppOption->excludes(timeOption)->excludes(noiseOption);
   timeOption->excludes(noiseOption);
 }
 
 void addSampling(CLI::App& verb, RenderSettings& s) {
   addText(
-      verb, "--strategy", "NAME", [&s](const std::string& t) { s.strategy = parseStrategy(t); }, describeStrategies());
+      verb, "--strategy", "NAME", [&s](const std::string& t) { s.strategy = parseStrategy(t); },
+      "How a light is chosen; see below (default " + std::string(nameOf(s.strategy)) + ")");
   addText(
       verb, "--sampler", "NAME", [&s](const std::string& t) { s.sampling = parseSampler(t); },
       "Random numbers: sobol (Owen-scrambled) or independent (default sobol)");
@@ -109,7 +100,7 @@ void addSampling(CLI::App& verb, RenderSettings& s) {
     s.maxDepth = static_cast<int>(parseWhole("--max-depth", t, {.most = kMaxDepthLimit}));
   };
   addText(verb, "--max-depth", "D", depth,
-          "Times a path may scatter: 0 shows emitters only, 1 is direct light only (default 8)");
+          "Times a path may scatter: 0 emitters only, 1 direct light only (default 8)");
   addText(
       verb, "--seed", "S", [&s](const std::string& t) { s.seed = parseWhole("--seed", t, {}); },
       "Another seed, another noise (default 0)");
@@ -136,8 +127,7 @@ void addView(CLI::App& verb, RenderOptions& o) {
   addText(
       verb, "--punctual-scale", "X|blender",
       [&o](const std::string& t) { o.load.punctualScale = parsePunctualScale(t); },
-      "Multiplies point, spot and directional lights; the word blender is 1/683 and undoes what Blender's exporter "
-      "multiplies by");
+      "Multiplies point, spot and directional lights; see below");
 }
 
 std::string describeCameras(const Scene& scene) {

@@ -20,9 +20,9 @@ std::string format(const char* pattern, Values... values) {
 }
 
 std::string bar(double share) {
-  const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * kBarWidth);
-  return "[" + std::string(static_cast<std::size_t>(full), '#') +
-         std::string(static_cast<std::size_t>(kBarWidth - full), '.') + "] ";
+  std::string text = "[" + std::string(kBarWidth, '.') + "] ";
+  std::fill_n(text.begin() + 1, static_cast<int>(share * kBarWidth), '#');
+  return text;
 }
 
 }  // namespace

@@ -4,11 +4,15 @@
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/verbs.h"
+#include "renderer/base/error.h"
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <span>
+#include <sstream>
 #include <string>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -16,15 +20,29 @@
 namespace cellcut {
 namespace {
 
-constexpr const char* kExamples =
-    "Examples:\n"
-    "  cellcut render room.glb -o room.png\n"
-    "  cellcut render room.glb -o room.exr --time 60 --report room.json\n"
-    "  cellcut render lamp.obj -o lamp.exr --environment sky.hdr --environment-rotation 90\n"
-    "  cellcut render blender.glb -o direct.png --max-depth 1 --punctual-scale blender\n"
-    "\n"
-    "Ctrl-C discards the pass in flight and writes what has been accumulated (exit code 0, or 1 when no pass was\n"
-    "complete); a second one quits at once. Exit codes: 0 done, 2 bad usage or input, 1 anything else.";
+constexpr const char* kExplanations = R"(
+Noise: the relative error is the root of relMSE, estimated from the variance of the samples themselves. Stopping on it
+favours pictures that happen to look finished early: a small bias of its own. It is looked at from pass 16 on.
+
+Blender's exporter multiplies point, spot and directional lights by 683 (lumen per watt) and emissive surfaces not:
+--punctual-scale blender undoes it.
+
+Ctrl-C discards the pass in flight and writes what has been accumulated (exit code 0, or 1 when no pass was complete);
+a second one quits at once. Exit codes: 0 done, 2 bad usage or input, 1 anything else.
+
+Examples:
+  cellcut render room.glb -o room.png
+  cellcut render room.glb -o room.exr --time 60 --report room.json
+  cellcut render lamp.obj -o lamp.exr --environment sky.hdr --environment-rotation 90
+  cellcut render blender.glb -o direct.png --max-depth 1 --punctual-scale blender)";
+
+std::string helpText() {
+  std::string text = "Strategies:\n";
+  for (const StrategyName& strategy : kStrategies) {
+    text += "  " + std::string(strategy.name) + ": " + std::string(strategy.description) + "\n";
+  }
+  return text + kExplanations;
+}
 
 class Stopwatch {
  public:
@@ -37,6 +55,20 @@ class Stopwatch {
 
 void showWarnings(const Scene& scene, std::ostream& err) {
   for (const std::string& warning : scene.warnings) err << "cellcut: warning: " << warning << '\n';
+}
+
+/// Linux promises memory that it does not have and kills whoever uses it; a film that cannot fit is refused before
+/// that.
+void requireMemory(const RenderSettings& settings) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  const double needed = pixels * static_cast<double>(Film::bytesPerPixel(settings.auxiliary));
+  const double installed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= installed) return;
+  std::ostringstream problem;
+  problem << settings.width << "x" << settings.height << " pixels take " << std::llround(needed / 1e9)
+          << " GB while they are rendered and this machine has " << std::llround(installed / 1e9)
+          << " GB; choose fewer, or .png or .pfm, which need half";
+  throw InputError("--size", problem.str());
 }
 
 ProgressState progressOf(const Renderer& renderer, const StopRule& rule, const RenderState& state) {
@@ -60,7 +92,7 @@ double renderPasses(Renderer& renderer, const StopRule& rule, const std::atomic<
     progress.update(progressOf(renderer, rule, state));
   }
   state.seconds = watch.seconds();
-  progress.finish(progressOf(renderer, rule, state));
+  if (state.passes > 0) progress.finish(progressOf(renderer, rule, state));
   return state.seconds;
 }
 
@@ -70,11 +102,15 @@ void showOutcome(const RenderRecord& record, std::ostream& err) {
     err << "cellcut: warning: " << bad.nan << " samples were NaN and " << bad.inf << " infinite; they count as black\n";
   }
   const auto passes = record.renderer.film().passes();
-  if (record.interrupted) err << "cellcut: interrupted; what follows holds the " << passes << " complete passes\n";
+  if (record.interrupted) err << "cellcut: interrupted; the picture holds the " << passes << " complete passes\n";
   err << "wrote " << record.options.output.file.string() << '\n';
 }
 
 int renderPicture(const RenderOptions& options, const Console& console) {
+  RenderSettings settings = options.settings;
+  settings.auxiliary = options.output.kind == PictureKind::kExr;
+  requireMemory(settings);
+
   const InterruptRequest interrupt;
   RenderTimes times;
   const Stopwatch loading;
@@ -82,9 +118,7 @@ int renderPicture(const RenderOptions& options, const Console& console) {
   times.load = loading.seconds();
   showWarnings(scene, console.err);
 
-  RenderSettings settings = options.settings;
   settings.camera = findCamera(scene, options.camera);
-  settings.auxiliary = options.output.kind == PictureKind::kExr;
   const Stopwatch building;
   Renderer renderer(scene, settings);
   times.build = building.seconds();
@@ -111,7 +145,7 @@ Verb addRender(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("render", "Render a scene to a picture");
   const auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*verb, *options);
-  verb->footer(kExamples);
+  verb->footer(helpText());
   return {verb, [options](const Console& console) { return renderPicture(*options, console); }};
 }
 

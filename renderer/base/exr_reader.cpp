@@ -6,7 +6,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_codecs.h"
 
-#include <cstring>
+#include <algorithm>
 #include <limits>
 
 #include <OpenEXR/IexBaseExc.h>
@@ -41,7 +41,7 @@ class MemoryInput : public Imf::IStream {
     if (n < 0 || at_ > bytes_.size() || static_cast<std::size_t>(n) > bytes_.size() - at_) {
       throw Iex::InputExc("unexpected end of file");
     }
-    std::memcpy(c, bytes_.data() + at_, static_cast<std::size_t>(n));
+    std::copy_n(asText(bytes_).data() + at_, n, c);
     at_ += static_cast<std::size_t>(n);
     return at_ < bytes_.size();
   }

@@ -31,7 +31,8 @@ struct Polynomial {
 };
 constexpr std::array<Polynomial, 3> kPolynomials{{{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}}};
 
-/// Direction numbers, bit-reversed, folded into one table per byte of the index. Dimension 0, the radical inverse, is the reversed index.
+/// Direction numbers, bit-reversed, folded into one table per byte of the index. Dimension 0, the radical inverse, is
+/// the reversed index.
 using ByteTables = std::array<std::array<std::uint32_t, 256>, 4>;
 
 constexpr ByteTables makeTables(const Polynomial& polynomial) {
@@ -69,8 +70,8 @@ std::uint32_t reversedSobol(const ByteTables& tables, std::uint32_t index) {
 }  // namespace
 
 std::array<std::uint32_t, 4> owenSobol4(std::uint32_t index, std::uint64_t seed) {
-  // Only the lower half of the index is shuffled: which block of 2¹⁶ points comes first does not matter once the coordinates are
-  // scrambled, and short indices need half of the tables.
+  // Only the lower half of the index is shuffled: which block of 2¹⁶ points comes first does not matter once the
+  // coordinates are scrambled, and short indices need half of the tables.
   constexpr std::uint32_t kShuffled = 0xffffu;
   const std::uint32_t shuffle = reverseBits(laineKarras(reverseBits(index), static_cast<std::uint32_t>(seed)));
   const std::uint32_t i = (index & ~kShuffled) | (shuffle & kShuffled);

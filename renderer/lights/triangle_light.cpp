@@ -8,9 +8,9 @@
 namespace cellcut {
 namespace {
 
-/// Solid angles (sr) between which directions are sampled uniformly. Below, Girard's excess of three float angles (error 10⁻⁶)
-/// would bias the samples by more than 10⁻⁴, and sampling by area is as good; above, the triangle is all but a hemisphere and
-/// Arvo's formulas divide by almost zero (pbrt's limit).
+/// Solid angles (sr) between which directions are sampled uniformly. Below, Girard's excess of three float angles
+/// (error 10⁻⁶) would bias the samples by more than 10⁻⁴, and sampling by area is as good; above, the triangle is all
+/// but a hemisphere and Arvo's formulas divide by almost zero (pbrt's limit).
 constexpr float kMinSolidAngle = 1e-2f;
 constexpr float kMaxSolidAngle = 6.22f;
 

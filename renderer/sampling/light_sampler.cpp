@@ -8,9 +8,12 @@ namespace cellcut {
 
 std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights) {
   switch (strategy) {
-    case Strategy::kUniform: return makeUniformSampler(lights);
-    case Strategy::kPower: return makePowerSampler(lights);
-    case Strategy::kProportional: return makeProportionalSampler(lights);
+    case Strategy::kUniform:
+      return makeUniformSampler(lights);
+    case Strategy::kPower:
+      return makePowerSampler(lights);
+    case Strategy::kProportional:
+      return makeProportionalSampler(lights);
   }
   assert(false);
   return nullptr;

@@ -23,7 +23,9 @@ inline constexpr std::array kStrategies{
     StrategyName{Strategy::kProportional, "proportional", "lights by their unoccluded irradiance at the point; O(N)"},
 };
 
-constexpr std::string_view nameOf(Strategy strategy) { return kStrategies[static_cast<std::size_t>(strategy)].name; }
+constexpr std::string_view nameOf(Strategy strategy) {
+  return kStrategies[static_cast<std::size_t>(strategy)].name;
+}
 
 constexpr std::optional<Strategy> strategyFromName(std::string_view name) {
   for (const StrategyName& s : kStrategies) {

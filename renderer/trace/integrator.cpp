@@ -5,12 +5,12 @@
 namespace cellcut {
 namespace {
 
-/// From this vertex on a path survives with the probability of its throughput. Two free bounces keep the variance of what is seen
-/// first low.
+/// From this vertex on a path survives with the probability of its throughput. Two free bounces keep the variance of
+/// what is seen first low.
 constexpr int kRouletteDepth = 2;
 
-/// Weight of a sample of density a against a strategy of density b. Source: Veach 1997, power heuristic, β = 2; as a ratio, so that
-/// no square overflows.
+/// Weight of a sample of density a against a strategy of density b. Source: Veach 1997, power heuristic, β = 2; as a
+/// ratio, so that no square overflows.
 float powerHeuristic(float a, float b) {
   const float ratio = b / a;
   return 1 / (1 + ratio * ratio);
@@ -30,7 +30,10 @@ SurfacePoint surfaceAt(const Scene& scene, const Hit& hit) {
   const Vec3 &v0 = mesh.positions[t.x], &v1 = mesh.positions[t.y], &v2 = mesh.positions[t.z];
   const float b0 = 1 - hit.barycentric.x - hit.barycentric.y;
   const Vec3 p = b0 * v0 + hit.barycentric.x * v1 + hit.barycentric.y * v2;
-  return {{&mesh, hit.triangle, hit.barycentric}, p, triangleError(v0, v1, v2), triangleGeometry(mesh, hit.triangle).normal};
+  return {{&mesh, hit.triangle, hit.barycentric},
+          p,
+          triangleError(v0, v1, v2),
+          triangleGeometry(mesh, hit.triangle).normal};
 }
 
 /// A path vertex that scatters.
@@ -78,6 +81,7 @@ class Path {
   PathSample trace(Ray ray) {
     Sample4 numbers = random_.next();
     for (int depth = 0;; ++depth) {
+      if (context_.record) context_.record->rays.push_back({ray, false});
       const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
       if (!hit) {
         addEnvironment(ray.direction);
@@ -139,6 +143,7 @@ class Path {
   }
 
   void addDirectLight(const Vertex& vertex) {
+    if (context_.record) context_.record->vertices.push_back(vertex.shadingPoint());
     const Sample4 numbers = random_.next();
     const std::optional<SampledLight> choice = context_.sampler.sample(vertex.shadingPoint(), numbers.wide(0));
     if (!choice) return;
@@ -154,6 +159,7 @@ class Path {
     const Vec3 origin = offsetRayOrigin(vertex.surface.p, vertex.surface.error, vertex.normal, light->wi);
     const Ray ray = light->distant ? Ray{origin, light->wi} : shadowRay(origin, light->end);
     ++counts_.shadowRays;
+    if (context_.record) context_.record->rays.push_back({ray, true});
     if (context_.accel.occluded(ray, static_cast<std::uint32_t>(numbers.extra))) return;
     const float pdf = choice->pmf * light->pdf;
     const float weight = light->delta ? 1.0f : powerHeuristic(pdf, scattering.pdf);

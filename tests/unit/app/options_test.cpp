@@ -1,7 +1,7 @@
 #include "app/options.h"
 
 #include "renderer/base/error.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/temporary_directory.h"
 
 #include <fstream>
 #include <string>
@@ -40,7 +40,7 @@ class RenderOptionsTest : public testing::Test {
     }
     return "accepted";
   }
-  TempFolder folder_;
+  test::TemporaryDirectory folder_;
 };
 
 TEST_F(RenderOptionsTest, DefaultsAreTheRenderersOwn) {

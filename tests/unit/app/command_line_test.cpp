@@ -1,0 +1,297 @@
+#include "app/command_line.h"
+
+#include "renderer/base/image_io.h"
+#include "renderer/sampling/strategy.h"
+#include "renderer/scene/recipes/recipe.h"
+#include "tests/support/temporary_directory.h"
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace cellcut {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+Outcome run(const std::vector<std::string>& arguments, std::ostream* err = nullptr, bool terminal = false) {
+  std::vector<const char*> args{"cellcut"};
+  for (const std::string& argument : arguments) args.push_back(argument.c_str());
+  std::ostringstream out;
+  std::ostringstream ownErr;
+  const int code = runCommandLine(args, out, err != nullptr ? *err : ownErr, terminal);
+  return {code, out.str(), ownErr.str()};
+}
+
+/// Bad input as a script sees it: 2, nothing on the standard output, one line that says why.
+void expectRefused(const std::vector<std::string>& arguments, const std::string& reason) {
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, HasSubstr(reason));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+TEST(CommandLine, WithoutVerbShowsHelpAndIsBadUsage) {
+  const Outcome outcome = run({});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  for (const char* verb : {"render", "compare", "generate", "info"}) EXPECT_THAT(outcome.err, HasSubstr(verb));
+}
+
+TEST(CommandLine, HelpOfEveryVerbHasAnExample) {
+  for (const std::string verb : {"render", "compare", "generate", "info"}) {
+    const Outcome outcome = run({verb, "--help"});
+    EXPECT_EQ(outcome.code, kDone);
+    EXPECT_THAT(outcome.out, HasSubstr("\n  cellcut " + verb + " "));
+    EXPECT_THAT(outcome.err, IsEmpty());
+  }
+}
+
+TEST(CommandLine, HelpFitsTheWidthOfATerminal) {
+  for (const std::string verb : {"render", "compare", "generate", "info"}) {
+    std::istringstream help(run({verb, "--help"}).out);
+    for (std::string line; std::getline(help, line);) {
+      EXPECT_LE(line.size(), 120u) << line;  // the column limit of our sources
+    }
+  }
+}
+
+TEST(CommandLine, VersionIsPrinted) {
+  const Outcome outcome = run({"--version"});
+  EXPECT_EQ(outcome.code, kDone);
+  EXPECT_THAT(outcome.out, testing::StartsWith("cellcut "));
+}
+
+TEST(CommandLine, BadUsageIsOneLine) {
+  expectRefused({"rendre"}, "rendre");
+  expectRefused({"info"}, "SCENE is required");
+  expectRefused({"compare", "a.exr"}, "B is required");
+  expectRefused({"render", "a.glb"}, "--output is required");
+  expectRefused({"render", "a.glb", "-o", "a.png", "--spp", "1", "--time", "1"}, "excludes");
+  expectRefused({"render", "a.glb", "-o", "a.png", "--spp", "1x"}, "--spp: '1x'");
+  expectRefused({"render", "a.glb", "-o", "a.png", "--frobnicate"}, "--frobnicate");
+  expectRefused({"generate", "castle", "--lights", "1", "-o", "a.glb"}, "rooms, street, hall, kinds");
+  expectRefused({"generate", "rooms", "--lights", "-1", "-o", "a.glb"}, "--lights: '-1'");
+  expectRefused({"generate", "rooms", "--lights", "1", "-o", "a.gltf"}, ".glb");
+}
+
+TEST(CommandLine, FilesThatAreNotThereAreBadInput) {
+  const test::TemporaryDirectory folder;
+  expectRefused({"info", (folder / "no.glb").string()}, "no.glb");
+  expectRefused({"compare", (folder / "no.exr").string(), (folder / "no.exr").string()}, "no.exr");
+  expectRefused({"render", (folder / "no.glb").string(), "-o", (folder / "a.png").string()}, "no.glb");
+}
+
+TEST(CommandLine, PicturesOfDifferentSizesDoNotCompare) {
+  const test::TemporaryDirectory folder;
+  writePfm(folder / "a.pfm", ImageRgb(2, 3));
+  writePfm(folder / "b.pfm", ImageRgb(3, 2));
+  expectRefused({"compare", (folder / "a.pfm").string(), (folder / "b.pfm").string()}, "2x3");
+}
+
+TEST(CommandLine, CompareReportsTheDifference) {
+  const test::TemporaryDirectory folder;
+  writePfm(folder / "a.pfm", ImageRgb(8, 8, Vec3(3)));
+  writePfm(folder / "b.pfm", ImageRgb(8, 8, Vec3(2)));
+  const Outcome outcome = run({"compare", (folder / "a.pfm").string(), (folder / "b.pfm").string()});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  // The same sums as in the definition, on numbers that a double holds: only the order of a few operations may differ.
+  EXPECT_DOUBLE_EQ(json.at("mse"), 1);
+  EXPECT_DOUBLE_EQ(json.at("epsilon"), 0.04);
+  EXPECT_DOUBLE_EQ(json.at("relmse"), 1 / 4.04);
+  EXPECT_DOUBLE_EQ(json.at("mean_a"), 3);
+  EXPECT_DOUBLE_EQ(json.at("mean_b"), 2);
+  EXPECT_DOUBLE_EQ(json.at("max_abs"), 1);
+  EXPECT_GT(json.at("flip"), 0);
+}
+
+TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
+  std::ifstream file(CELLCUT_ASSETS "/completions/cellcut.bash");
+  const std::string script(std::istreambuf_iterator<char>(file), {});
+  for (const StrategyName& s : kStrategies) EXPECT_THAT(script, HasSubstr(std::string(s.name)));
+  for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
+  for (const std::string verb : {"render", "compare", "generate", "info"}) {
+    EXPECT_THAT(script, HasSubstr("_cellcut_words 'render compare generate info"));
+    std::istringstream help(run({verb, "--help"}).out);
+    for (std::string word; help >> word;) {
+      const std::size_t dashes = word.find("--");
+      if (dashes == std::string::npos) continue;
+      const std::size_t end = word.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", dashes);
+      const std::string option = word.substr(dashes, end == std::string::npos ? end : end - dashes);
+      EXPECT_THAT(script, HasSubstr(option)) << verb;
+    }
+  }
+}
+
+/// Verbs that work on a small scene of all five kinds of light.
+class VerbsOnAScene : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Outcome outcome = run({"generate", "kinds", "--lights", "8", "--seed", "3", "-o", path("kinds.glb")});
+    ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  Outcome render(const std::string& picture, const std::vector<std::string>& more, std::ostream* err = nullptr,
+                 bool terminal = false) {
+    std::vector<std::string> args{"render", path("kinds.glb"), "-o", path(picture), "--size", "32x18"};
+    args.insert(args.end(), more.begin(), more.end());
+    return run(args, err, terminal);
+  }
+  nlohmann::json report() const {
+    std::ifstream file(path("report.json"));
+    return nlohmann::json::parse(file);
+  }
+  std::string contents(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  test::TemporaryDirectory folder_;
+};
+
+TEST_F(VerbsOnAScene, InfoCountsWhatTheRecipeWasAskedFor) {
+  const Outcome outcome = run({"info", path("kinds.glb")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  const auto& lights = json.at("lights");
+  const std::size_t count = lights.at("point").get<std::size_t>() + lights.at("spot").get<std::size_t>() +
+                            lights.at("triangle").get<std::size_t>() + lights.at("directional").get<std::size_t>();
+  EXPECT_EQ(count, 8u);  // tiles of the environment are not counted by the recipe
+  for (const char* key : {"meshes", "triangles", "materials", "textures", "cameras", "bounds", "memory", "warnings"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_GT(json.at("triangles"), 0);
+  EXPECT_FALSE(json.at("cameras").empty());
+}
+
+TEST_F(VerbsOnAScene, ReportHasEveryKeyOfTheContract) {
+  const Outcome outcome = render(
+      "a.exr", {"--spp", "3", "--seed", "5", "--threads", "2", "--strategy", "power", "--report", path("report.json")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const auto json = report();
+  EXPECT_EQ(json.at("passes"), 3);
+  EXPECT_EQ(json.at("spp"), 3);
+  EXPECT_EQ(json.at("width"), 32);
+  EXPECT_EQ(json.at("height"), 18);
+  EXPECT_EQ(json.at("seed"), 5);
+  EXPECT_EQ(json.at("threads"), 2);
+  EXPECT_EQ(json.at("strategy"), "power");
+  EXPECT_EQ(json.at("rays").at("camera"), 3 * 32 * 18);
+  EXPECT_GT(json.at("rays").at("bounce"), 0);
+  EXPECT_GT(json.at("rays").at("shadow"), 0);
+  EXPECT_EQ(json.at("mean").size(), 3u);
+  EXPECT_GT(json.at("mean").at(0), 0);
+  for (const char* key : {"seconds_load", "seconds_build", "seconds_render"}) EXPECT_GT(json.at(key), 0) << key;
+  for (const char* key : {"point", "spot", "triangle", "directional", "environment"}) {
+    EXPECT_GE(json.at("lights").at(key), 0) << key;
+  }
+  for (const char* key : {"peak_rss", "scene", "accel", "lights", "film"})
+    EXPECT_GT(json.at("memory").at(key), 0) << key;
+  for (const char* key : {"nan", "inf", "dropped"}) EXPECT_EQ(json.at("samples").at(key), 0) << key;
+}
+
+TEST_F(VerbsOnAScene, PictureIsTheSameOnAnyNumberOfThreads) {
+  ASSERT_EQ(render("one.pfm", {"--spp", "4", "--threads", "1"}).code, kDone);
+  ASSERT_EQ(render("two.pfm", {"--spp", "4", "--threads", "2"}).code, kDone);
+  ASSERT_EQ(render("other.pfm", {"--spp", "4", "--seed", "1"}).code, kDone);
+  EXPECT_TRUE(contents("one.pfm") == contents("two.pfm"));
+  EXPECT_FALSE(contents("one.pfm") == contents("other.pfm"));
+}
+
+TEST_F(VerbsOnAScene, ExrTellsHowItWasMade) {
+  ASSERT_EQ(render("a b.exr", {"--spp", "2", "--seed", "77", "--max-depth", "1"}).code, kDone);
+  const std::string header = contents("a b.exr").substr(0, 4096);
+  for (const char* expected : {"commandLine", "--max-depth 1", "kinds.glb", "a b.exr'", "proportional", "77",
+                               "maxDepth", "secondsRender", "albedo", "normal", "depth", "error"}) {
+    EXPECT_THAT(header, HasSubstr(expected));
+  }
+}
+
+TEST_F(VerbsOnAScene, AllKindsOfPicturesAreWritten) {
+  for (const std::string name : {"a.exr", "a.pfm", "a.png"}) {
+    const Outcome outcome = render(name, {"--spp", "1"});
+    EXPECT_EQ(outcome.code, kDone);
+    EXPECT_THAT(outcome.err, HasSubstr("wrote " + path(name)));
+    EXPECT_FALSE(contents(name).empty());
+  }
+  const ImageRgb exr = readImage(path("a.exr"));
+  const ImageRgb pfm = readImage(path("a.pfm"));
+  EXPECT_TRUE(std::equal(exr.begin(), exr.end(), pfm.begin(), pfm.end()));
+}
+
+TEST_F(VerbsOnAScene, TimeStopsAtTheEndOfAPass) {
+  ASSERT_EQ(render("a.pfm", {"--time", "0.05", "--report", path("report.json")}).code, kDone);
+  EXPECT_GE(report().at("seconds_render"), 0.05);
+  EXPECT_GE(report().at("passes"), 1);
+}
+
+TEST_F(VerbsOnAScene, NoiseStopsWhenTheEstimateIsBelow) {
+  ASSERT_EQ(render("a.pfm", {"--noise", "0.5", "--report", path("report.json")}).code, kDone);
+  EXPECT_LT(report().at("relative_error"), 0.5);
+  EXPECT_GE(report().at("passes"), 16);
+}
+
+TEST_F(VerbsOnAScene, UnknownCameraListsTheCameras) {
+  const Outcome outcome = render("a.pfm", {"--camera", "nowhere"});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("the scene has no 'nowhere'; it has 0 '"));
+  EXPECT_FALSE(std::filesystem::exists(path("a.pfm")));
+}
+
+TEST_F(VerbsOnAScene, EnvironmentLightsTheScene) {
+  writePfm(path("sky.pfm"), ImageRgb(4, 2, Vec3(1)));
+  ASSERT_EQ(render("plain.pfm", {"--spp", "4", "--report", path("report.json")}).code, kDone);
+  const double plain = report().at("mean").at(2);
+  ASSERT_EQ(render("sky-lit.pfm", {"--spp", "4", "--report", path("report.json"), "--environment", path("sky.pfm"),
+                                   "--environment-scale", "100"})
+                .code,
+            kDone);
+  EXPECT_GT(report().at("mean").at(2), plain);
+  EXPECT_GT(report().at("lights").at("environment"), 0);
+}
+
+/// Sends the process a SIGINT when something is first written to it, as a person would who has seen the first progress.
+class InterruptingBuffer : public std::stringbuf {
+ protected:
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    if (!sent_) std::raise(SIGINT);
+    sent_ = true;
+    return std::stringbuf::xsputn(text, size);
+  }
+
+ private:
+  bool sent_ = false;
+};
+
+TEST_F(VerbsOnAScene, InterruptionWritesWhatHasBeenAccumulated) {
+  InterruptingBuffer buffer;
+  std::ostream err(&buffer);
+  const Outcome outcome = render("a.pfm", {"--spp", "1000000000", "--report", path("report.json")}, &err, true);
+  EXPECT_EQ(outcome.code, kDone);
+  EXPECT_THAT(buffer.str(), HasSubstr("interrupted"));
+  EXPECT_EQ(report().at("interrupted"), true);
+  const int passes = report().at("passes");
+  ASSERT_GE(passes, 1);
+  ASSERT_EQ(render("b.pfm", {"--spp", std::to_string(passes)}).code, kDone);
+  EXPECT_TRUE(contents("a.pfm") == contents("b.pfm"));  // nothing of the pass in flight
+}
+
+}  // namespace
+}  // namespace cellcut
