@@ -132,6 +132,20 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
   }
 }
 
+TEST_P(QuadLight, CoversTheHemisphereOfAPointCloseToIt) {
+  // Too close for sampling the light: MIS leaves it to the BSDF. White facet under a sky of radiance 1: all but the edges of a
+  // quad 10⁴ times as wide as it is far, (10⁻⁴)².
+  Scene scene;
+  addFacets(scene, {{Vec3(0), {0, 1, 0}}});
+  addQuad(scene, addMaterial(scene, emitter(Vec3(1), false)), {-5, 1e-3f, -5}, {10, 0, 0}, {0, 0, 10});
+  finish(scene);
+  const PointEstimator estimator(scene, GetParam().strategy);
+  PointTests tests(1);
+  // The camera ray starts beyond the quad otherwise.
+  tests.add(estimator.reflected({Vec3(0), {0, 1, 0}}, sampleShare(100'000), 1, 1e-4f), 1);
+  tests.finish(1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, QuadLight, testing::ValuesIn(kStrategies),
                          [](const auto& info) { return strategyName(info.param.name); });
 

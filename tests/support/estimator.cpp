@@ -30,10 +30,10 @@ void addFacets(Scene& scene, const std::vector<Receiver>& receivers) {
 PointEstimator::PointEstimator(const Scene& scene, Strategy strategy)
     : scene_(scene), accel_(scene), lights_(scene), sampler_(makeLightSampler(strategy, lights_)) {}
 
-Moments PointEstimator::reflected(const Receiver& receiver, std::size_t samples, std::uint64_t seed) const {
+Moments PointEstimator::reflected(const Receiver& receiver, std::size_t samples, std::uint64_t seed, float from) const {
   const PathContext context{scene_, accel_, lights_, *sampler_, 1, true};
   // From close by, so that no other facet comes between.
-  const Ray ray{receiver.p + 1e-3f * receiver.n, -receiver.n};
+  const Ray ray{receiver.p + from * receiver.n, -receiver.n};
   PathCounts counts;
   Moments moments;
   for (std::size_t i = 0; i < samples; ++i) {

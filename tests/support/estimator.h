@@ -28,7 +28,8 @@ class PointEstimator {
   PointEstimator(const Scene& scene, Strategy strategy);
   const Lights& lights() const { return lights_; }
   /// Luminance of direct light that a receiver reflects along its normal, W/(m² sr): E/π of a white facet.
-  Moments reflected(const Receiver& receiver, std::size_t samples, std::uint64_t seed) const;
+  /// \param from  metres before the receiver where the camera rays start
+  Moments reflected(const Receiver& receiver, std::size_t samples, std::uint64_t seed, float from = 1e-3f) const;
 
  private:
   const Scene& scene_;
