@@ -119,6 +119,7 @@ void checkHeader(const Imf::Header& header, std::size_t fileBytes, const std::st
   }
   const std::int64_t pixelBytes = bytesPerPixel(header.channels());
   const std::int64_t limit = expansionLimit(header.compression());
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): findPart() has chosen a part that has channels.
   checkImageSize(data.width, data.height, fileBytes, std::max<std::int64_t>(1, limit / pixelBytes), name);
   checkDisplayWindow(toWindow(header.displayWindow()), data.width * data.height, name);
   if (header.hasTileDescription()) checkTiles(header.tileDescription(), data, pixelBytes, name);
