@@ -1,5 +1,6 @@
 // Proof 3 of every strategy for pictures: at first and at later vertices, against a path tracer that chooses no light, and against
 // each other.
+#include "renderer/base/rng.h"
 #include "tests/support/depth.h"
 #include "tests/support/images.h"
 #include "tests/support/strategies.h"
@@ -26,9 +27,7 @@ class Pictures : public testing::TestWithParam<std::tuple<LightMix, int>> {
   int maxDepth() const { return std::get<1>(GetParam()); }
 };
 
-TEST_P(Pictures, AllStrategiesAndTheReferenceAgree) {
-  const Scene scene = stage(mix(), 15, 3);
-  RenderSettings settings = settingsFor(maxDepth());
+void expectAllAgree(const Scene& scene, RenderSettings settings) {
   std::vector<std::pair<std::string, Image<Estimate>>> pictures;
   pictures.emplace_back("reference", referenceEstimates(scene, settings, referencePasses()));
   for (const StrategyName& strategy : kStrategies) {
@@ -43,6 +42,44 @@ TEST_P(Pictures, AllStrategiesAndTheReferenceAgree) {
           << pictures[a].first << " against " << pictures[b].first;
     }
   }
+}
+
+TEST_P(Pictures, AllStrategiesAndTheReferenceAgree) { expectAllAgree(stage(mix(), 15, 3), settingsFor(maxDepth())); }
+
+/// Emission and coverage that vary over the light: a glowing picture on half-transparent glass, one cut out by a mask, both sides of
+/// one and the front of the other, and a veil without emission before them.
+void addTexturedLights(Scene& scene) {
+  Rng rng(5);
+  ImageRgba8 texels(8, 8);
+  for (auto& texel : texels) {
+    const auto byte = [&] { return static_cast<std::uint8_t>(rng.below(256)); };
+    texel = {byte(), byte(), rng.below(3) == 0 ? std::uint8_t{0} : byte(), byte()};
+    if (rng.below(3) == 0) texel.x = texel.y = texel.z = 0;
+  }
+  scene.texels.push_back(std::move(texels));
+  scene.textures.push_back({TexelsId{0}, Wrap::kRepeat, Wrap::kMirror, false});
+  Material glass = emitter({8, 6, 5}, true);
+  glass.emissionTexture.texture = TextureId{0};
+  glass.baseColorTexture.texture = TextureId{0};
+  glass.baseColor = {0.3f, 0.3f, 0.3f, 0.8f};
+  glass.alphaMode = AlphaMode::kBlend;
+  Material mask = glass;
+  mask.doubleSided = false;
+  mask.alphaMode = AlphaMode::kMask;
+  mask.alphaCutoff = 0.35f;
+  Material veil = lambertian(Vec3(0.6f));
+  veil.baseColor.w = 0.4f;
+  veil.alphaMode = AlphaMode::kBlend;
+  addQuad(scene, addMaterial(scene, glass), {-1.2f, 0.9f, -0.9f}, {1.1f, 0, 0.2f}, {0, 0.1f, 1.3f}, 2, 3);
+  addQuad(scene, addMaterial(scene, mask), {0.3f, 0.2f, -1.2f}, {1, 0, 0}, {0, 0.9f, 0.3f});
+  addQuad(scene, addMaterial(scene, veil), {-0.2f, -0.4f, 0.9f}, {1.2f, 0, 0}, {0, 0.9f, 0});
+  finish(scene);
+}
+
+TEST_P(Pictures, AgreeUnderTexturedAndPartlyCoveredLights) {
+  Scene scene = stage(mix(), 5, 4);
+  addTexturedLights(scene);
+  expectAllAgree(scene, settingsFor(maxDepth()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Pictures, testing::Combine(testing::ValuesIn(kLightMixes), testing::Values(1, 3)),

@@ -26,7 +26,7 @@ Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& set
 /// Means over a grid of tiles.
 std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide);
 
-/// Compares pictures by tiles and as a whole.
+/// Compares pictures by tiles, as far as these are made of enough paths, and as a whole.
 /// \param comparisons  how many pairs are compared in the test, this one included
 /// \return "" if no tile of the 8 by 8 and not the mean differs by more than chance, else what differs and by how much
 std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons);

@@ -89,6 +89,31 @@ TEST_P(TriangleSampling, MeanOfContributionsIsTheFormFactor) {
   }
 }
 
+TEST(TriangleLight, IsSampledRightFromCloseToAnEdge) {
+  // Every distance at which directions are sampled, whichever corner comes first.
+  constexpr std::array<float, 6> kDistances{1, 0.1f, 0.03f, 0.02f, 0.01f, 1e-3f};
+  for (const float h : kDistances) {
+    for (std::size_t first = 0; first < 3; ++first) {
+      const std::array<Vec3, 3> c{Vec3(-5, h, -5), Vec3(5, h, -5), Vec3(5, h, 5)};
+      const OneTriangle triangle(c[first], c[(first + 1) % 3], c[(first + 2) % 3]);
+      Rng rng(16);
+      Moments moments;
+      bool byDirection = true;
+      for (std::size_t i = 0; i < sampleShare(byDepth(100'000, 10'000'000)); ++i) {
+        const float u = rng.uniform();
+        const auto sample = triangle.lights->sample(LightId{0}, Vec3(0), {u, rng.uniform()});
+        byDirection = byDirection && sample && std::abs(sample->pdf - 1 / kPi) < 0.1f;
+        moments.add(sample ? static_cast<double>(std::max(0.0f, sample->wi.y) / sample->pdf) : 0.0);
+      }
+      if (!byDirection && h < 0.02f) continue;  // by area: right by construction, with too much variance for a z-test
+      const double expected = triangleFormFactor(triangle.geometry, Vec3(0), {0, 1, 0});
+      EXPECT_LT(std::abs(zScore(moments.mean(), moments.meanVariance(), expected, 1e-8 * expected * expected)),
+                criticalZ(3 * kDistances.size()))
+          << moments.mean() << " against " << expected << " at " << h << ", corner " << first;
+    }
+  }
+}
+
 TEST_P(TriangleSampling, PdfIsThatOfTheSample) {
   const OneTriangle triangle({-0.5f, -0.4f, 0}, {0.6f, -0.3f, 0}, {0.1f, 0.7f, 0});
   const Vec3 p(0.05f, 0.02f, -GetParam());

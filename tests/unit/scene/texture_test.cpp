@@ -1,5 +1,7 @@
 #include "renderer/scene/texture.h"
 
+#include "renderer/base/srgb.h"
+
 #include <gtest/gtest.h>
 
 namespace cellcut {
