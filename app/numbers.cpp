@@ -38,7 +38,7 @@ std::uint64_t parseWhole(const std::string& option, std::string_view text, Whole
 
 double parseReal(const std::string& option, std::string_view text, RealRange range) {
   const auto value = parseAll<double>(text);
-  const bool inside = value && std::isfinite(*value) && *value >= range.least;
+  const bool inside = value && std::isfinite(*value) && *value >= range.least && *value <= range.most;
   if (!inside || (range.leastExcluded && *value == range.least)) {
     throw InputError(option, "'" + std::string(text) + "' is not " + describe(range));
   }

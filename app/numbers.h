@@ -16,6 +16,7 @@ struct WholeRange {
 
 struct RealRange {
   double least = std::numeric_limits<double>::lowest();
+  double most = std::numeric_limits<double>::max();
   bool leastExcluded = false;
 };
 

@@ -32,6 +32,12 @@ PixelSampling parseSampler(const std::string& name) {
   throw InputError("--sampler", "'" + name + "' is none of sobol, independent");
 }
 
+InCluster parseInCluster(const std::string& name) {
+  if (name == "intensity") return InCluster::kIntensity;
+  if (name == "descent") return InCluster::kDescent;
+  throw InputError("--in-cluster", "'" + name + "' is none of intensity, descent");
+}
+
 double parsePunctualScale(const std::string& text) {
   // Lumen per watt at 555 nm: what Blender's exporter multiplies its lights by (glTF wants candela).
   if (text == "blender") return 1.0 / 683.0;
@@ -110,6 +116,31 @@ void addSampling(CLI::App& verb, RenderSettings& s) {
   addText(verb, "--threads", "T", threads, "0 is one per hardware thread (default); the picture is the same for any");
 }
 
+void addCuts(CLI::App& verb, SamplerSettings& s) {
+  const auto threshold = [&s](const std::string& t) {
+    s.threshold = static_cast<float>(parseReal("--threshold", t, {.least = 0, .most = 1}));
+  };
+  addText(verb, "--threshold", "X", threshold, "Split clusters above this share of a cut's estimate (default 0.001)");
+  const auto maxCut = [&s](const std::string& t) {
+    s.maxCut = static_cast<int>(parseWhole("--max-cut", t, {.least = 2, .most = kMaxCutSize}));
+  };
+  addText(verb, "--max-cut", "K", maxCut, "Most clusters of a cut (default " + std::to_string(s.maxCut) + ")");
+  const auto resolution = [&s](const std::string& t) {
+    s.gridResolution = static_cast<int>(parseWhole("--grid-resolution", t, {.least = 1, .most = kMaxGridResolution}));
+  };
+  addText(verb, "--grid-resolution", "R", resolution,
+          "Cells along the longest axis of what is seen (default " + std::to_string(s.gridResolution) + ")");
+  addText(
+      verb, "--in-cluster", "intensity|descent", [&s](const std::string& t) { s.inCluster = parseInCluster(t); },
+      "How a light is chosen inside a cluster (default intensity)");
+  const auto memory = [&s](const std::string& t) {
+    s.cellMemory = static_cast<std::size_t>(parseWhole("--cell-memory", t, {.most = kMaxCellMegabytes})) << 20;
+  };
+  addText(verb, "--cell-memory", "MB", memory,
+          "Cuts that are kept; beyond it they are found again, slower, with the same picture (default " +
+              std::to_string(s.cellMemory >> 20) + ")");
+}
+
 void addView(CLI::App& verb, RenderOptions& o) {
   addText(
       verb, "--camera", "NAME|INDEX", [&o](const std::string& t) { o.camera = t; },
@@ -144,6 +175,7 @@ void addRenderOptions(CLI::App& verb, RenderOptions& options) {
   addFiles(verb, options);
   addStopRule(verb, options.stop);
   addSampling(verb, options.settings);
+  addCuts(verb, options.settings.sampler);
   addView(verb, options);
 }
 

@@ -4,11 +4,15 @@
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/verbs.h"
+#include "renderer/base/error.h"
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <span>
+#include <sstream>
 #include <string>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -53,6 +57,20 @@ void showWarnings(const Scene& scene, std::ostream& err) {
   for (const std::string& warning : scene.warnings) err << "cellcut: warning: " << warning << '\n';
 }
 
+/// Linux promises memory that it does not have and kills whoever uses it; a film that cannot fit is refused before
+/// that.
+void requireMemory(const RenderSettings& settings) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  const double needed = pixels * static_cast<double>(Film::bytesPerPixel(settings.auxiliary));
+  const double installed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= installed) return;
+  std::ostringstream problem;
+  problem << settings.width << "x" << settings.height << " pixels take " << std::llround(needed / 1e9)
+          << " GB while they are rendered and this machine has " << std::llround(installed / 1e9)
+          << " GB; choose fewer, or .png or .pfm, which need half";
+  throw InputError("--size", problem.str());
+}
+
 ProgressState progressOf(const Renderer& renderer, const StopRule& rule, const RenderState& state) {
   const RayCounts rays = renderer.rays();
   const auto traced = static_cast<double>(rays.camera + rays.bounce + rays.shadow);
@@ -84,12 +102,15 @@ void showOutcome(const RenderRecord& record, std::ostream& err) {
     err << "cellcut: warning: " << bad.nan << " samples were NaN and " << bad.inf << " infinite; they count as black\n";
   }
   const auto passes = record.renderer.film().passes();
-  if (record.interrupted)
-    err << "cellcut: interrupted; the picture holds the " << passes << " passes that were complete\n";
+  if (record.interrupted) err << "cellcut: interrupted; the picture holds the " << passes << " complete passes\n";
   err << "wrote " << record.options.output.file.string() << '\n';
 }
 
 int renderPicture(const RenderOptions& options, const Console& console) {
+  RenderSettings settings = options.settings;
+  settings.auxiliary = options.output.kind == PictureKind::kExr;
+  requireMemory(settings);
+
   const InterruptRequest interrupt;
   RenderTimes times;
   const Stopwatch loading;
@@ -97,9 +118,7 @@ int renderPicture(const RenderOptions& options, const Console& console) {
   times.load = loading.seconds();
   showWarnings(scene, console.err);
 
-  RenderSettings settings = options.settings;
   settings.camera = findCamera(scene, options.camera);
-  settings.auxiliary = options.output.kind == PictureKind::kExr;
   const Stopwatch building;
   Renderer renderer(scene, settings);
   times.build = building.seconds();

@@ -18,6 +18,25 @@ const char* nameOf(PixelSampling sampling) {
   return sampling == PixelSampling::kSobol ? "sobol" : "independent";
 }
 
+/// Keys of what the strategy has; none of what it has not.
+void addStatistics(nlohmann::ordered_json& report, const SamplerStatistics& statistics) {
+  if (const auto& grid = statistics.grid) {
+    const double cells = static_cast<double>(grid->resolution[0]) * grid->resolution[1] * grid->resolution[2];
+    report["grid"] = {{"resolution", grid->resolution},
+                      {"cells", cells},
+                      {"touched", grid->touched},
+                      {"touched_percent", 100 * static_cast<double>(grid->touched) / cells}};
+  }
+  if (const auto& cut = statistics.cut) {
+    report["cut"] = {
+        {"min", cut->min}, {"mean", cut->mean}, {"max", cut->max}, {"seconds", cut->seconds}, {"bytes", cut->bytes}};
+  }
+  if (const auto& tree = statistics.tree) {
+    report["tree"] = {
+        {"nodes", tree->nodes}, {"depth", tree->depth}, {"seconds", tree->seconds}, {"bytes", tree->bytes}};
+  }
+}
+
 }  // namespace
 
 std::size_t peakResidentBytes() {
@@ -63,6 +82,7 @@ nlohmann::ordered_json renderReport(const RenderRecord& record) {
                       {"accel", memory.accel},
                       {"lights", memory.lights},
                       {"film", memory.film}};
+  addStatistics(report, renderer.samplerStatistics());
   report["samples"] = {{"nan", bad.nan}, {"inf", bad.inf}, {"dropped", renderer.droppedSamples()}};
   report["mean"] = meanColour(renderer.film().mean());
   report["relative_error"] = renderer.film().relativeError();

@@ -16,7 +16,8 @@ _cellcut_render() {
     -o | --output) _cellcut_files 'exr|pfm|png' ;;
     --report) _cellcut_files 'json' ;;
     --environment) _cellcut_files 'exr|hdr' ;;
-    --strategy) _cellcut_words 'uniform power proportional' ;;
+    --strategy) _cellcut_words 'uniform power proportional cell-cut point-cut light-tree' ;;
+    --in-cluster) _cellcut_words 'intensity descent' ;;
     --sampler) _cellcut_words 'sobol independent' ;;
     --punctual-scale) _cellcut_words 'blender' ;;
     --size) _cellcut_words '1280x720 1920x1080 3840x2160' ;;
@@ -25,7 +26,7 @@ _cellcut_render() {
     *)
       if [[ $cur == -* ]]; then
         _cellcut_words '-o --output --report --strategy --spp --time --noise --size --max-depth --seed --threads --camera
-          --sampler --environment --environment-scale --environment-rotation --punctual-scale --help'
+          --sampler --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale --environment-rotation --punctual-scale --help'
       else
         _cellcut_files 'gltf|glb|obj'
       fi

@@ -1,8 +1,8 @@
 // encodeExr of image_io.h.
 #include "renderer/base/image_io.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cstring>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -22,7 +22,7 @@ class MemoryOutput : public Imf::OStream {
   void write(const char c[], int n) override {
     const std::size_t end = at_ + static_cast<std::size_t>(n);
     if (end > bytes_.size()) bytes_.resize(end);
-    std::memcpy(bytes_.data() + at_, c, static_cast<std::size_t>(n));
+    std::copy_n(reinterpret_cast<const std::byte*>(c), n, bytes_.data() + at_);
     at_ = end;
   }
   std::uint64_t tellp() override { return at_; }

@@ -45,7 +45,10 @@ class TemporaryFile {
   }
 
   void write(std::span<const std::byte> bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) refuseWriting(target_, errno);
+    // An empty span may hold a null pointer, which fwrite() may not be given.
+    if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
+      refuseWriting(target_, errno);
+    }
   }
 
   /// Everything onto the disk, then under the target's name.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -29,10 +30,24 @@ constexpr T luminance(const glm::vec<3, T, glm::defaultp>& rgb) {
   return T(0.2126) * rgb.x + T(0.7152) * rgb.y + T(0.0722) * rgb.z;
 }
 
-inline bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-inline bool isBlack(const Vec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
-inline float maxComponent(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
-inline float safeSqrt(float x) { return std::sqrt(std::max(0.0f, x)); }
+inline bool isFinite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+inline bool isBlack(const Vec3& v) {
+  return v.x == 0 && v.y == 0 && v.z == 0;
+}
+inline float maxComponent(const Vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+inline float safeSqrt(float x) {
+  return std::sqrt(std::max(0.0f, x));
+}
+
+/// The next float towards +∞. \pre x is finite
+inline float nextFloatUp(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);  // −0 becomes +0
+  return std::bit_cast<float>(x < 0 ? bits - 1 : bits + 1);
+}
 
 /// Relative error bound of n chained float operations, n·u / (1 − n·u) with the unit round-off u = 2⁻²⁴.
 /// Source: Higham, Accuracy and Stability of Numerical Algorithms, section 3.1; pbrt 4th ed. section 6.8.1.

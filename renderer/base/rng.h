@@ -23,9 +23,13 @@ constexpr std::uint64_t hashOf(std::uint64_t first, Rest... rest) {
 }
 
 /// [0, 1) from the upper bits; a float holds 24, so 1 is never reached.
-constexpr float toUnitFloat(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+constexpr float toUnitFloat(std::uint32_t bits) {
+  return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
 /// [0, 1) with 53 bits: enough to reach each of 10⁷ lights whose powers span twelve decades.
-constexpr double toUnitDouble(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+constexpr double toUnitDouble(std::uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 /// A stream of independent numbers from one seed (SplitMix64: Steele et al. 2014). For tests, recipes and pilots.
 class Rng {

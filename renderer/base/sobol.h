@@ -1,9 +1,10 @@
 /// \file sobol.h
 /// Owen-scrambled Sobol' points, four dimensions at a time.
 ///
-/// Each group of four dimensions is the first four of Sobol's sequence, its index shuffled and its coordinates scrambled by
-/// hashes of a seed, so that groups are independent of each other and any prefix of 2^k points is a scrambled (t, k, 4)-net.
-/// Source: B. Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4); direction numbers of Joe and Kuo 2008.
+/// Each group of four dimensions is the first four of Sobol's sequence, its index shuffled and its coordinates
+/// scrambled by hashes of a seed, so that groups are independent of each other and any prefix of 2^k points is a
+/// scrambled (t, k, 4)-net. Source: B. Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4); direction
+/// numbers of Joe and Kuo 2008.
 #pragma once
 
 #include <array>

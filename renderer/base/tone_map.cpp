@@ -1,5 +1,7 @@
 #include "renderer/base/tone_map.h"
 
+#include "renderer/base/srgb.h"
+
 namespace cellcut {
 
 namespace {
@@ -11,11 +13,6 @@ constexpr float kBrightest = 0x1p60f;   // shown as white long before; keeps the
 /// NaN compares false and becomes 0.
 float clampChannel(float c) {
   return c > 0 ? std::min(c, kBrightest) : 0.0f;
-}
-
-/// sRGB opto-electronic transfer function, IEC 61966-2-1.
-float encodeSrgb(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
 Vec3 compress(const Vec3& color) {
@@ -31,7 +28,7 @@ Vec3 compress(const Vec3& color) {
 
 Vec3 toneMap(const Vec3& linear) {
   const Vec3 shown = compress({clampChannel(linear.x), clampChannel(linear.y), clampChannel(linear.z)});
-  const auto encode = [](float c) { return std::clamp(encodeSrgb(c), 0.0f, 1.0f); };
+  const auto encode = [](float c) { return std::clamp(linearToSrgb(c), 0.0f, 1.0f); };
   return {encode(shown.x), encode(shown.y), encode(shown.z)};
 }
 

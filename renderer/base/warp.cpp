@@ -3,10 +3,12 @@
 namespace cellcut {
 namespace {
 
+using DVec3 = glm::dvec3;
+
 /// Angle between unit vectors, precise near 0 and π. Source: Kahan 2006.
-float angleBetween(const Vec3& a, const Vec3& b) {
-  return glm::dot(a, b) < 0 ? kPi - 2 * std::asin(std::min(1.0f, 0.5f * glm::length(a + b)))
-                            : 2 * std::asin(std::min(1.0f, 0.5f * glm::length(b - a)));
+double angleBetween(const DVec3& a, const DVec3& b) {
+  return glm::dot(a, b) < 0 ? std::numbers::pi - 2 * std::asin(std::min(1.0, 0.5 * glm::length(a + b)))
+                            : 2 * std::asin(std::min(1.0, 0.5 * glm::length(b - a)));
 }
 
 }  // namespace
@@ -30,42 +32,47 @@ Vec2 uniformTriangle(Vec2 u) {
   return {u.x - 0.5f * u.y, 0.5f * u.y};
 }
 
-float sphericalTriangleArea(const std::array<Vec3, 3>& c) {
+// In double: from close to an edge its ends are all but opposite, where float sums of angles and triple products are right to
+// 10⁻³ only.
+float sphericalTriangleArea(const std::array<Vec3, 3>& corners) {
+  const DVec3 a(corners[0]), b(corners[1]), c(corners[2]);
   // The triple product of differences keeps its digits where the corners are close together.
-  const float triple = glm::dot(c[0], glm::cross(c[1] - c[0], c[2] - c[0]));
-  const float denominator = 1 + glm::dot(c[0], c[1]) + glm::dot(c[1], c[2]) + glm::dot(c[2], c[0]);
-  return std::abs(2 * std::atan2(triple, denominator));
+  const double triple = glm::dot(a, glm::cross(b - a, c - a));
+  const double denominator = 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a);
+  return static_cast<float>(std::abs(2 * std::atan2(triple, denominator)));
 }
 
-std::optional<Vec3> uniformSphericalTriangle(const std::array<Vec3, 3>& c, Vec2 u) {
-  const auto [a, b, d] = c;
-  const Vec3 nAb = glm::cross(a, b), nBc = glm::cross(b, d), nCa = glm::cross(d, a);
-  const float lAb = glm::length(nAb), lBc = glm::length(nBc), lCa = glm::length(nCa);
+std::optional<Vec3> uniformSphericalTriangle(const std::array<Vec3, 3>& corners, Vec2 u) {
+  const DVec3 a = glm::normalize(DVec3(corners[0])), b = glm::normalize(DVec3(corners[1])), c = glm::normalize(DVec3(corners[2]));
+  const DVec3 nAb = glm::cross(a, b), nBc = glm::cross(b, c), nCa = glm::cross(c, a);
+  const double lAb = glm::length(nAb), lBc = glm::length(nBc), lCa = glm::length(nCa);
   if (lAb == 0 || lBc == 0 || lCa == 0) return std::nullopt;
 
-  const Vec3 uAb = nAb / lAb, uBc = nBc / lBc, uCa = nCa / lCa;
-  const float alpha = angleBetween(uAb, -uCa);
-  const float beta = angleBetween(uBc, -uAb);
-  const float gamma = angleBetween(uCa, -uBc);
+  const DVec3 uAb = nAb / lAb, uBc = nBc / lBc, uCa = nCa / lCa;
+  const double alpha = angleBetween(uAb, -uCa);
+  const double beta = angleBetween(uBc, -uAb);
+  const double gamma = angleBetween(uCa, -uBc);
 
   // A sub-triangle of area u₀ · A fixes the point C' on the edge AC.
-  const float areaPlusPi = kPi + u.x * (alpha + beta + gamma - kPi);
-  const float cosAlpha = std::cos(alpha), sinAlpha = std::sin(alpha);
-  const float sinPhi = std::sin(areaPlusPi) * cosAlpha - std::cos(areaPlusPi) * sinAlpha;
-  const float cosPhi = std::cos(areaPlusPi) * cosAlpha + std::sin(areaPlusPi) * sinAlpha;
-  const float k1 = cosPhi + cosAlpha;
-  const float k2 = sinPhi - sinAlpha * glm::dot(a, b);
-  float cosB = (k2 + (k2 * cosPhi - k1 * sinPhi) * cosAlpha) / ((k2 * sinPhi + k1 * cosPhi) * sinAlpha);
+  const double areaPlusPi = std::numbers::pi + static_cast<double>(u.x) * (alpha + beta + gamma - std::numbers::pi);
+  const double cosAlpha = std::cos(alpha), sinAlpha = std::sin(alpha);
+  const double cosArea = std::cos(areaPlusPi), sinArea = std::sin(areaPlusPi);
+  const double sinPhi = sinArea * cosAlpha - cosArea * sinAlpha;
+  const double cosPhi = cosArea * cosAlpha + sinArea * sinAlpha;
+  const double k1 = cosPhi + cosAlpha;
+  const double k2 = sinPhi - sinAlpha * glm::dot(a, b);
+  double cosB = (k2 + (k2 * cosPhi - k1 * sinPhi) * cosAlpha) / ((k2 * sinPhi + k1 * cosPhi) * sinAlpha);
   if (!std::isfinite(cosB)) return std::nullopt;
-  cosB = std::clamp(cosB, -1.0f, 1.0f);
+  cosB = std::clamp(cosB, -1.0, 1.0);
 
-  const Vec3 towardsC = d - glm::dot(d, a) * a;
-  const Vec3 cPrime = cosB * a + safeSqrt(1 - cosB * cosB) * glm::normalize(towardsC);
-  const float cosTheta = 1 - u.y * (1 - glm::dot(cPrime, b));
-  const Vec3 towardsCPrime = cPrime - glm::dot(cPrime, b) * b;
-  const float length = glm::length(towardsCPrime);
-  if (length == 0) return b;
-  return glm::normalize(cosTheta * b + safeSqrt(1 - cosTheta * cosTheta) * (towardsCPrime / length));
+  const DVec3 towardsC = c - glm::dot(c, a) * a;
+  const DVec3 cPrime = cosB * a + std::sqrt(1 - cosB * cosB) * glm::normalize(towardsC);
+  const double cosTheta = 1 - static_cast<double>(u.y) * (1 - glm::dot(cPrime, b));
+  const DVec3 towardsCPrime = cPrime - glm::dot(cPrime, b) * b;
+  const double length = glm::length(towardsCPrime);
+  if (length == 0) return Vec3(b);
+  const double sinTheta = std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta));
+  return Vec3(glm::normalize(cosTheta * b + sinTheta * (towardsCPrime / length)));
 }
 
 }  // namespace cellcut

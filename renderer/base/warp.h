@@ -15,7 +15,8 @@ Vec2 concentricDisk(Vec2 u);
 /// Cosine-distributed direction around +z; density cosθ/π.
 Vec3 cosineHemisphere(Vec2 u);
 
-/// Barycentric weights of two corners, uniform in area. Source: Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+/// Barycentric weights of two corners, uniform in area. Source: Heitz 2019, "A Low-Distortion Map Between Triangle and
+/// Square".
 Vec2 uniformTriangle(Vec2 u);
 
 /// Solid angle of a triangle seen from the origin, [0, 2π]. Source: Van Oosterom and Strackee 1983.

@@ -5,8 +5,8 @@
 namespace cellcut {
 namespace {
 
-/// A tile with more than this share of the energy is split. 1/256: an even sky becomes a few hundred tiles, fine enough for the
-/// horizon's cosine, and the sun a tile of its own.
+/// A tile with more than this share of the energy is split. 1/256: an even sky becomes a few hundred tiles, fine enough
+/// for the horizon's cosine, and the sun a tile of its own.
 constexpr float kTileShare = 1.0f / 256;
 
 constexpr std::int32_t kBlack = std::numeric_limits<std::int32_t>::min();
@@ -92,8 +92,10 @@ void EnvironmentLight::addTile(std::uint8_t level, std::uint32_t x, std::uint32_
   const auto width = static_cast<float>(levels_[0].width), height = static_cast<float>(levels_[0].height);
   const auto size = static_cast<float>(1u << level);
   const float u0 = static_cast<float>(x) * size / width, u1 = std::min(1.0f, static_cast<float>(x + 1) * size / width);
-  const float v0 = static_cast<float>(y) * size / height, v1 = std::min(1.0f, static_cast<float>(y + 1) * size / height);
-  // From the middle to any direction: first along the meridian, then along a parallel, which is no shorter than the great circle.
+  const float v0 = static_cast<float>(y) * size / height,
+              v1 = std::min(1.0f, static_cast<float>(y + 1) * size / height);
+  // From the middle to any direction: first along the meridian, then along a parallel, which is no shorter than the
+  // great circle.
   const float halfLatitude = kPi * 0.5f * (v1 - v0);
   const float widest = v0 <= 0.5f && v1 >= 0.5f ? 1.0f : std::max(std::sin(kPi * v0), std::sin(kPi * v1));
   const float halfAngle = std::min(kPi, halfLatitude + kPi * (u1 - u0) * widest);

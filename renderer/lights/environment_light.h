@@ -1,10 +1,10 @@
 /// \file environment_light.h
 /// The environment as lights: tiles of its picture, each sampled by luminance × solid angle.
 ///
-/// The weight of a texel is the luminance of the bilinear radiance integrated over the texel, times its solid angle, so that it is
-/// positive wherever any radiance is. Weights are summed in a pyramid; a tile is a node of it, and a direction is found by
-/// descending from the tile to a texel (hierarchical warping, Clarberg et al. 2005): no difference of prefix sums, so that a dim
-/// texel beside the sun keeps its exact probability.
+/// The weight of a texel is the luminance of the bilinear radiance integrated over the texel, times its solid angle, so
+/// that it is positive wherever any radiance is. Weights are summed in a pyramid; a tile is a node of it, and a
+/// direction is found by descending from the tile to a texel (hierarchical warping, Clarberg et al. 2005): no
+/// difference of prefix sums, so that a dim texel beside the sun keeps its exact probability.
 #pragma once
 
 #include "renderer/scene/environment.h"
@@ -17,11 +17,11 @@ namespace cellcut {
 
 /// Directions and energy of one tile.
 struct EnvironmentTile {
-  std::uint8_t level;   ///< of the pyramid; 0 are texels
-  std::uint32_t x, y;   ///< node at that level
-  float weight;         ///< mean luminance × solid angle, W/m², > 0
-  Vec3 axis;            ///< unit, middle of the tile
-  float cosHalfAngle;   ///< every direction of the tile is within this angle of the axis
+  std::uint8_t level;  ///< of the pyramid; 0 are texels
+  std::uint32_t x, y;  ///< node at that level
+  float weight;        ///< mean luminance × solid angle, W/m², > 0
+  Vec3 axis;           ///< unit, middle of the tile
+  float cosHalfAngle;  ///< every direction of the tile is within this angle of the axis
 };
 
 class EnvironmentLight {

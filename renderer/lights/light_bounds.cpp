@@ -26,8 +26,7 @@ LightBounds spotBounds(const SpotLight& light) {
 LightBounds triangleBounds(const Scene& scene, const TriangleLight& light) {
   const Mesh& mesh = scene.meshes[indexOf(light.mesh)];
   const TriangleGeometry triangle = triangleGeometry(mesh, light.triangle);
-  LightBounds bounds{.axes = {triangle.normal, 1, 0},
-                     .twoSided = scene.materials[indexOf(mesh.material)].doubleSided};
+  LightBounds bounds{.axes = {triangle.normal, 1, 0}, .twoSided = scene.materials[indexOf(mesh.material)].doubleSided};
   for (const Vec3& corner : triangle.corners) bounds.box.add(corner);
   return bounds;
 }
@@ -41,11 +40,16 @@ LightBounds boundsOf(const Lights& lights, LightId light) {
   const Scene& scene = lights.scene();
   const std::size_t i = lights.indexInKind(light);
   switch (lights.kind(light)) {
-    case LightKind::kPoint: return pointBounds(scene.pointLights[i]);
-    case LightKind::kSpot: return spotBounds(scene.spotLights[i]);
-    case LightKind::kTriangle: return triangleBounds(scene, lights.triangles()[i]);
-    case LightKind::kDirectional: return infiniteBounds(scene.directionalLights[i].axis, 1);
-    case LightKind::kEnvironment: break;
+    case LightKind::kPoint:
+      return pointBounds(scene.pointLights[i]);
+    case LightKind::kSpot:
+      return spotBounds(scene.spotLights[i]);
+    case LightKind::kTriangle:
+      return triangleBounds(scene, lights.triangles()[i]);
+    case LightKind::kDirectional:
+      return infiniteBounds(scene.directionalLights[i].axis, 1);
+    case LightKind::kEnvironment:
+      break;
   }
   const EnvironmentTile& tile = lights.environment()->tiles()[i];
   return infiniteBounds(-tile.axis, tile.cosHalfAngle);
@@ -100,14 +104,18 @@ double peakIntensity(const Lights& lights, LightId light) {
   const Scene& scene = lights.scene();
   const std::size_t i = lights.indexInKind(light);
   switch (lights.kind(light)) {
-    case LightKind::kPoint: return luminance(glm::dvec3(scene.pointLights[i].intensity));
-    case LightKind::kSpot: return luminance(glm::dvec3(scene.spotLights[i].intensity));
+    case LightKind::kPoint:
+      return luminance(glm::dvec3(scene.pointLights[i].intensity));
+    case LightKind::kSpot:
+      return luminance(glm::dvec3(scene.spotLights[i].intensity));
     case LightKind::kTriangle: {
       const TriangleLight& t = lights.triangles()[i];
       return static_cast<double>(t.meanLuminance) * triangleGeometry(scene.meshes[indexOf(t.mesh)], t.triangle).area;
     }
-    case LightKind::kDirectional: return luminance(glm::dvec3(scene.directionalLights[i].irradiance));
-    case LightKind::kEnvironment: break;
+    case LightKind::kDirectional:
+      return luminance(glm::dvec3(scene.directionalLights[i].irradiance));
+    case LightKind::kEnvironment:
+      break;
   }
   return lights.environment()->tiles()[i].weight;
 }

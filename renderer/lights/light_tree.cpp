@@ -18,7 +18,7 @@ constexpr int kMaxCostDepth = 64;
 /// What the build moves about: a light's bounds in brief.
 struct BuildLight {
   Vec3 lower, upper;
-  Vec3 axis;          ///< times (1 + cosθo) / 2: none for a light that shines everywhere
+  Vec3 axis;  ///< times (1 + cosθo) / 2: none for a light that shines everywhere
   float intensity;
   std::uint32_t index;
   Vec3 middle() const { return 0.5f * lower + 0.5f * upper; }
@@ -44,9 +44,9 @@ struct Bucket {
     intensity += other.intensity;
     count += other.count;
   }
-  /// Intensity × size × orientation. Size is the squared diagonal and not the surface: the area of collinear lights is zero.
-  /// Orientation runs from 1 (all axes alike) to 4 (everywhere), the ratio of Conty Estevez and Kulla's measure, by the length of
-  /// the mean axis: a sum, where their cone would need a union per light.
+  /// Intensity × size × orientation. Size is the squared diagonal and not the surface: the area of collinear lights is
+  /// zero. Orientation runs from 1 (all axes alike) to 4 (everywhere), the ratio of Conty Estevez and Kulla's measure,
+  /// by the length of the mean axis: a sum, where their cone would need a union per light.
   float cost() const {
     if (count == 0) return 0;
     const Vec3 diagonal = box.upper - box.lower;
@@ -56,8 +56,8 @@ struct Bucket {
 };
 
 struct Split {
-  int axis = -1;  ///< −1: none is better than another
-  int bucket = 0; ///< last bucket of the left side
+  int axis = -1;   ///< −1: none is better than another
+  int bucket = 0;  ///< last bucket of the left side
   float cost = kInfinity;
 };
 
@@ -75,7 +75,9 @@ Split bestSplit(std::span<const BuildLight> lights, const Bounds& middles) {
     const Vec3 middle = light.middle();
     for (int axis = 0; axis < 3; ++axis) {
       if (extent[axis] > 0) {
-        buckets[static_cast<std::size_t>(axis)][static_cast<std::size_t>(bucketOf(middle[axis], middles.lower[axis], scale[axis]))].add(light);
+        buckets[static_cast<std::size_t>(axis)]
+               [static_cast<std::size_t>(bucketOf(middle[axis], middles.lower[axis], scale[axis]))]
+                   .add(light);
       }
     }
   }
@@ -157,7 +159,8 @@ class Builder {
   std::vector<LightTreeNode>& nodes_;
 };
 
-/// Unit vector ↔ two coordinates in [−1, 1]. Source: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
+/// Unit vector ↔ two coordinates in [−1, 1]. Source: Cigolle et al. 2014, "A Survey of Efficient Representations for
+/// Independent Unit Vectors".
 Vec2 octahedral(const Vec3& v) {
   const float sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
   const Vec2 p = Vec2(v.x, v.y) / sum;
@@ -174,7 +177,9 @@ Vec3 fromOctahedral(Vec2 p) {
   return glm::normalize(v);
 }
 
-std::int16_t toSigned16(float x) { return static_cast<std::int16_t>(std::lround(x * 32767)); }
+std::int16_t toSigned16(float x) {
+  return static_cast<std::int16_t>(std::lround(x * 32767));
+}
 
 /// sin(θ/2) of an angle given by its cosine, rounded up to a multiple of 1/65535. `extra` radians are added first.
 std::uint16_t sinHalf16(float cosTheta, float extra) {
@@ -182,7 +187,8 @@ std::uint16_t sinHalf16(float cosTheta, float extra) {
   return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * theta) * 65535)));
 }
 
-/// Largest angle between an axis and its 2 × 16-bit code: half a step in the octahedron's plane, stretched by at most √3 · √2.
+/// Largest angle between an axis and its 2 × 16-bit code: half a step in the octahedron's plane, stretched by at most
+/// √3 · √2.
 constexpr float kAxisError = 4e-5f * 2;
 
 }  // namespace
@@ -217,7 +223,8 @@ LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool 
     const LightBounds& b = bounds[i];
     if (!(b.intensity > 0)) continue;
     const Vec3 lower = distant ? b.axes.axis : b.box.lower, upper = distant ? b.axes.axis : b.box.upper;
-    lights.push_back({lower, upper, b.axes.axis * (0.5f + 0.5f * b.axes.cosTheta), b.intensity, static_cast<std::uint32_t>(i)});
+    lights.push_back(
+        {lower, upper, b.axes.axis * (0.5f + 0.5f * b.axes.cosTheta), b.intensity, static_cast<std::uint32_t>(i)});
   }
   if (lights.empty()) return;
   nodes_.resize(2 * lights.size() - 1);

@@ -1,9 +1,10 @@
 /// \file light_tree.h
 /// Binary hierarchy over the lights of one group; a cluster is a node, and its lights a contiguous range of leaves.
 ///
-/// Nodes lie in depth-first order: the left child of node i is i + 1, the right child i + 2 · (leaves of the left child), and a node
-/// with one leaf is a light. Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate cases: design notes below.
-/// Space: metres for local lights; distant lights have no box. Threads: const members may run concurrently.
+/// Nodes lie in depth-first order: the left child of node i is i + 1, the right child i + 2 · (leaves of the left
+/// child), and a node with one leaf is a light. Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate
+/// cases: design notes below. Space: metres for local lights; distant lights have no box. Threads: const members may
+/// run concurrently.
 #pragma once
 
 #include "renderer/lights/light_bounds.h"
@@ -38,8 +39,8 @@ class LightTreeNode {
 
   Vec3 lower_, upper_;
   float intensity_;
-  std::int16_t axisX_, axisY_;            ///< octahedral
-  std::uint16_t sinHalfO_, sinHalfE_;     ///< sin(θ/2) · 65535, rounded up
+  std::int16_t axisX_, axisY_;         ///< octahedral
+  std::uint16_t sinHalfO_, sinHalfE_;  ///< sin(θ/2) · 65535, rounded up
   std::uint32_t firstLeaf_;
   std::uint32_t leafCountAndSides_;
 };
@@ -81,9 +82,10 @@ class LightTree {
 
  private:
   std::vector<LightTreeNode> nodes_;
-  std::vector<LightId> leaves_;             ///< in depth-first order
+  std::vector<LightId> leaves_;  ///< in depth-first order
   std::vector<std::uint32_t> leafOfLight_;
-  std::vector<double> intensitySums_;       ///< of all leaves before: N + 1 values. Double, or faint lights could never be drawn
+  std::vector<double>
+      intensitySums_;  ///< of all leaves before: N + 1 values. Double, or faint lights could never be drawn
   LightId firstId_;
 };
 

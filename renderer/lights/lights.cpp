@@ -14,8 +14,8 @@ float spotFalloff(const SpotLight& spot, float cosine) {
   return t * t;
 }
 
-/// A delta light at a position: intensity / d². The division is in two steps, so that neither d² nor the quotient leaves the range
-/// of a float while the result is in it.
+/// A delta light at a position: intensity / d². The division is in two steps, so that neither d² nor the quotient
+/// leaves the range of a float while the result is in it.
 std::optional<LightSample> samplePosition(const Vec3& position, const Vec3& intensity, const Vec3& p) {
   const Vec3 d = position - p;
   const float distance = glm::length(d);
@@ -61,7 +61,9 @@ std::optional<LightSample> sampleTriangleLight(const Scene& scene, const Triangl
                      .end = offsetRayOrigin(point->position, error, triangle.normal, -toLight)};
 }
 
-double cosineAt(const Vec3& n, const glm::dvec3& direction) { return std::max(0.0, glm::dot(glm::dvec3(n), direction)); }
+double cosineAt(const Vec3& n, const glm::dvec3& direction) {
+  return std::max(0.0, glm::dot(glm::dvec3(n), direction));
+}
 
 /// ∫ falloff dω over a spot's cone: the plateau, and the quadratic ramp in cosθ.
 double spotSolidAngle(const SpotLight& spot) {
@@ -76,8 +78,8 @@ Lights::Lights(const Scene& scene) : scene_(scene), triangles_(collectTriangleLi
     environment_.emplace(*scene.environment);
     if (environment_->tiles().empty()) environment_.reset();
   }
-  const std::array<std::size_t, kLightKinds> counts{scene.pointLights.size(), scene.spotLights.size(), triangles_.size(),
-                                                    scene.directionalLights.size(),
+  const std::array<std::size_t, kLightKinds> counts{scene.pointLights.size(), scene.spotLights.size(),
+                                                    triangles_.size(), scene.directionalLights.size(),
                                                     environment_ ? environment_->tiles().size() : 0};
   std::size_t sum = 0;
   for (std::size_t kind = 0; kind < kLightKinds; ++kind) {
@@ -103,11 +105,15 @@ std::optional<LightSample> Lights::sample(LightId light, const Vec3& p, Vec2 u) 
   const LightKind k = kind(light);
   const std::size_t i = indexInKind(light);
   switch (k) {
-    case LightKind::kPoint: return samplePosition(scene_.pointLights[i].position, scene_.pointLights[i].intensity, p);
-    case LightKind::kSpot: return sampleSpot(scene_.spotLights[i], p);
-    case LightKind::kTriangle: return sampleTriangleLight(scene_, triangles_[i], p, u);
+    case LightKind::kPoint:
+      return samplePosition(scene_.pointLights[i].position, scene_.pointLights[i].intensity, p);
+    case LightKind::kSpot:
+      return sampleSpot(scene_.spotLights[i], p);
+    case LightKind::kTriangle:
+      return sampleTriangleLight(scene_, triangles_[i], p, u);
     case LightKind::kDirectional:
-    case LightKind::kEnvironment: break;
+    case LightKind::kEnvironment:
+      break;
   }
   return sampleDistant(k, i, u);
 }
@@ -165,7 +171,8 @@ double Lights::flux(LightId light) const {
   const std::size_t i = indexInKind(light);
   const double radius = scene_.bounds.radius();
   switch (kind(light)) {
-    case LightKind::kPoint: return 4 * pi * luminance(glm::dvec3(scene_.pointLights[i].intensity));
+    case LightKind::kPoint:
+      return 4 * pi * luminance(glm::dvec3(scene_.pointLights[i].intensity));
     case LightKind::kSpot:
       return spotSolidAngle(scene_.spotLights[i]) * luminance(glm::dvec3(scene_.spotLights[i].intensity));
     case LightKind::kTriangle: {
@@ -175,7 +182,8 @@ double Lights::flux(LightId light) const {
     }
     case LightKind::kDirectional:
       return luminance(glm::dvec3(scene_.directionalLights[i].irradiance)) * pi * radius * radius;
-    case LightKind::kEnvironment: return environment_->tiles()[i].weight * pi * radius * radius;
+    case LightKind::kEnvironment:
+      return environment_->tiles()[i].weight * pi * radius * radius;
   }
   return 0;
 }
@@ -188,7 +196,8 @@ double Lights::irradiance(LightId light, const Vec3& p, const Vec3& n) const {
     return distance > 0 ? luminance(glm::dvec3(intensity)) * cosineAt(n, d / distance) / distance / distance : 0.0;
   };
   switch (kind(light)) {
-    case LightKind::kPoint: return fromPosition(scene_.pointLights[i].position, scene_.pointLights[i].intensity);
+    case LightKind::kPoint:
+      return fromPosition(scene_.pointLights[i].position, scene_.pointLights[i].intensity);
     case LightKind::kSpot: {
       const SpotLight& spot = scene_.spotLights[i];
       const Vec3 d = p - spot.position;

@@ -1,8 +1,8 @@
 /// \file lights.h
 /// All light sources of a scene as one numbered set, each with its measures and ways to sample it.
 ///
-/// Numbers run kind by kind: point, spot, triangle, directional, environment tiles; a kind that the scene does not have takes no
-/// number, no memory and no time. Units: metres, W, sr. Threads: const members may run concurrently.
+/// Numbers run kind by kind: point, spot, triangle, directional, environment tiles; a kind that the scene does not have
+/// takes no number, no memory and no time. Units: metres, W, sr. Threads: const members may run concurrently.
 #pragma once
 
 #include "renderer/lights/environment_light.h"
@@ -31,12 +31,12 @@ struct LightCounts {
 
 /// Light arriving at a point from one light, before visibility.
 struct LightSample {
-  Vec3 radiance;    ///< W/(m² sr), or for delta lights W/m² across wi
-  Vec3 wi;          ///< unit, towards the light
-  float pdf;        ///< density over solid angle of wi given the light; 1 for delta lights
-  bool delta;       ///< a direction that no BSDF sample can find: MIS weight 1
-  bool distant;     ///< at infinity: `end` is not set
-  Vec3 end;         ///< where a shadow ray to the light must reach, already off the light's surface
+  Vec3 radiance;  ///< W/(m² sr), or for delta lights W/m² across wi
+  Vec3 wi;        ///< unit, towards the light
+  float pdf;      ///< density over solid angle of wi given the light; 1 for delta lights
+  bool delta;     ///< a direction that no BSDF sample can find: MIS weight 1
+  bool distant;   ///< at infinity: `end` is not set
+  Vec3 end;       ///< where a shadow ray to the light must reach, already off the light's surface
 };
 
 class Lights {
@@ -50,8 +50,8 @@ class Lights {
     return first_[k + 1] - first_[k];
   }
   LightCounts counts() const {
-    return {count(LightKind::kPoint), count(LightKind::kSpot), count(LightKind::kTriangle), count(LightKind::kDirectional),
-            count(LightKind::kEnvironment)};
+    return {count(LightKind::kPoint), count(LightKind::kSpot), count(LightKind::kTriangle),
+            count(LightKind::kDirectional), count(LightKind::kEnvironment)};
   }
   LightKind kind(LightId light) const;
   /// Position of a light among those of its kind.
@@ -60,8 +60,8 @@ class Lights {
     return static_cast<LightId>(first_[static_cast<std::size_t>(kind)] + index);
   }
 
-  /// A point or a direction on one light, as seen from `p`; nothing when the light sends nothing there (behind a one-sided
-  /// triangle, outside a spot's cone, black texel) or p lies on the light.
+  /// A point or a direction on one light, as seen from `p`; nothing when the light sends nothing there (behind a
+  /// one-sided triangle, outside a spot's cone, black texel) or p lies on the light.
   std::optional<LightSample> sample(LightId light, const Vec3& p, Vec2 u) const;
 
   /// Whether p is the very position of a point or spot light, where its light is not defined.
@@ -78,8 +78,9 @@ class Lights {
 
   /// Emitted power, luminance in W; directional lights and tiles count what falls on a disk of the scene's radius.
   double flux(LightId light) const;
-  /// Unoccluded irradiance (luminance, W/m²) at a point with unit normal n: exact for point, spot, directional lights and for
-  /// triangles of uniform radiance (the mean is taken), a bound for tiles. > 0 wherever the light can contribute.
+  /// Unoccluded irradiance (luminance, W/m²) at a point with unit normal n: exact for point, spot, directional lights
+  /// and for triangles of uniform radiance (the mean is taken), a bound for tiles. > 0 wherever the light can
+  /// contribute.
   double irradiance(LightId light, const Vec3& p, const Vec3& n) const;
 
   const Scene& scene() const { return scene_; }

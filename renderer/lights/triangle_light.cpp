@@ -8,11 +8,15 @@
 namespace cellcut {
 namespace {
 
-/// Solid angles (sr) between which directions are sampled uniformly. Below, Girard's excess of three float angles (error 10⁻⁶)
-/// would bias the samples by more than 10⁻⁴, and sampling by area is as good; above, the triangle is all but a hemisphere and
-/// Arvo's formulas divide by almost zero (pbrt's limit).
+/// Solid angles (sr) between which directions are sampled uniformly. Below, Girard's excess of three float angles
+/// (error 10⁻⁶) would bias the samples by more than 10⁻⁴, and sampling by area is as good; above, the triangle is all
+/// but a hemisphere and Arvo's formulas divide by almost zero (pbrt's limit).
 constexpr float kMinSolidAngle = 1e-2f;
 constexpr float kMaxSolidAngle = 6.22f;
+/// Cosine between corners below which points are sampled: from close to the middle of an edge its ends are all but
+/// opposite, and their float directions no longer say which plane the edge is in. Here, 4 · 10⁻³ short of opposite, it
+/// is right to 2 · 10⁻⁵.
+constexpr float kMinCornerCosine = -1 + 1e-5f;
 
 /// A triangle as the observer sees it on the unit sphere.
 struct SphericalTriangle {
@@ -27,6 +31,9 @@ std::optional<SphericalTriangle> sphericalTriangle(const TriangleGeometry& trian
   // All but slivers that far away span less than the limit: skip the square roots and the arctangent.
   if (triangle.area <= 0.25f * kMinSolidAngle * nearest2 || nearest2 == 0) return std::nullopt;
   const std::array<Vec3, 3> directions{glm::normalize(to[0]), glm::normalize(to[1]), glm::normalize(to[2])};
+  const float widest = std::min({glm::dot(directions[0], directions[1]), glm::dot(directions[1], directions[2]),
+                                 glm::dot(directions[2], directions[0])});
+  if (widest < kMinCornerCosine) return std::nullopt;
   const float solidAngle = sphericalTriangleArea(directions);
   if (!(solidAngle > kMinSolidAngle && solidAngle < kMaxSolidAngle)) return std::nullopt;
   return SphericalTriangle{directions, solidAngle};

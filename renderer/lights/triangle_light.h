@@ -32,7 +32,7 @@ TriangleGeometry triangleGeometry(const Mesh& mesh, std::uint32_t triangle);
 struct TrianglePoint {
   Vec2 barycentric;  ///< weights of corners 1 and 2
   Vec3 position;
-  float pdf;         ///< over solid angle at the observer
+  float pdf;  ///< over solid angle at the observer
 };
 
 /// By solid angle where that is stable, else by area. Source: pbrt 4th ed. section 6.5.4.
@@ -42,8 +42,8 @@ std::optional<TrianglePoint> sampleTriangle(const TriangleGeometry& triangle, co
 /// Density of sampleTriangle at point `q` of the triangle; 0 where it samples nothing.
 float trianglePdf(const TriangleGeometry& triangle, const Vec3& p, const Vec3& q);
 
-/// ∫ cosθ dω over the part of the triangle above the horizon of normal n at p, from either side of the triangle, [0, π].
-/// Source: Lambert's polygon formula (Baum et al. 1989), after clipping. In double.
+/// ∫ cosθ dω over the part of the triangle above the horizon of normal n at p, from either side of the triangle, [0,
+/// π]. Source: Lambert's polygon formula (Baum et al. 1989), after clipping. In double.
 double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const Vec3& n);
 
 }  // namespace cellcut

@@ -26,7 +26,8 @@ AliasTable::AliasTable(std::span<const double> weights) {
       under.push_back(rich);
     }
   }
-  // Rounding leaves some bins a little off 1. A bin without weight must not keep any of itself: its rest goes to the largest.
+  // Rounding leaves some bins a little off 1. A bin without weight must not keep any of itself: its rest goes to the
+  // largest.
   const auto largest = static_cast<std::uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   for (const auto& rest : {under, over}) {
     for (const std::uint32_t i : rest) {

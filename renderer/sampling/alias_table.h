@@ -9,7 +9,8 @@
 
 namespace cellcut {
 
-/// Source: Vose 1991, "A Linear Algorithm for Generating Random Numbers with a Given Distribution"; pbrt 4th ed. section A.1.
+/// Source: Vose 1991, "A Linear Algorithm for Generating Random Numbers with a Given Distribution"; pbrt 4th ed.
+/// section A.1.
 class AliasTable {
  public:
   /// \param weights  ≥ 0 and finite, with a finite sum; all zero or none: an empty distribution
@@ -23,7 +24,7 @@ class AliasTable {
 
  private:
   struct Bin {
-    double own;           ///< share of the bin that is its own
+    double own;  ///< share of the bin that is its own
     double pmf;
     std::uint32_t alias;  ///< who has the rest
   };

@@ -12,7 +12,10 @@ using Clock = std::chrono::steady_clock;
 }  // namespace
 
 CellCutSampler::CellCutSampler(const Lights& lights, const SamplerSettings& settings, std::span<const Vec3> pilot)
-    : trees_(lights), settings_(settings), grid_(centralBox(pilot), settings.gridResolution), cells_(settings.cellMemory) {}
+    : trees_(lights),
+      settings_(settings),
+      grid_(centralBox(pilot), settings.gridResolution),
+      cells_(settings.cellMemory) {}
 
 Cut CellCutSampler::makeCut(const Region& region) const {
   const Clock::time_point start = Clock::now();
@@ -42,7 +45,9 @@ float CellCutSampler::pmf(const ShadingPoint& point, LightId light) const {
   return withCut(point.p, [&](const Cut& cut) { return pmfInCut(trees_, cut, settings_.inCluster, point, light); });
 }
 
-std::size_t CellCutSampler::bytes() const { return trees_.bytes() + cells_.bytes(); }
+std::size_t CellCutSampler::bytes() const {
+  return trees_.bytes() + cells_.bytes();
+}
 
 SamplerStatistics CellCutSampler::statistics() const {
   SamplerStatistics s;

@@ -1,5 +1,6 @@
 /// \file cell_cut.h
-/// The method of this program: one cut per grid cell, found when the cell is first touched, and one light from it per path vertex.
+/// The method of this program: one cut per grid cell, found when the cell is first touched, and one light from it per
+/// path vertex.
 ///
 /// Source: Vévoda and Křivánek 2016, doi:10.1145/3005274.3005283.
 #pragma once

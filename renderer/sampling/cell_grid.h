@@ -1,9 +1,9 @@
 /// \file cell_grid.h
 /// The regular grid of cubic cells, and a table of what was made of the cells that were touched.
 ///
-/// Cells are addressed by integer coordinates and hashed, so that only touched cells take memory and space has no border. The first
-/// thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is no global lock. What is made is
-/// never changed.
+/// Cells are addressed by integer coordinates and hashed, so that only touched cells take memory and space has no
+/// border. The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
+/// no global lock. What is made is never changed.
 #pragma once
 
 #include "renderer/sampling/cut.h"
@@ -44,8 +44,8 @@ class GridGeometry {
   glm::ivec3 resolution_;
 };
 
-/// Corners of the middle of a cloud of points: per axis from its 5 % to its 95 % quantile, so that the horizon seen from a house does
-/// not stretch the house's cells. Empty for no points.
+/// Corners of the middle of a cloud of points: per axis from its 5 % to its 95 % quantile, so that the horizon seen
+/// from a house does not stretch the house's cells. Empty for no points.
 Bounds centralBox(std::span<const Vec3> points);
 
 /// Cuts by cell. Threads: every member may run concurrently, but the destructor.
@@ -57,7 +57,8 @@ class CellTable {
   CellTable(const CellTable&) = delete;
   CellTable& operator=(const CellTable&) = delete;
 
-  /// The cell's cut: found, or made by `make` once for all threads. Null when the memory is used up: the caller makes its own.
+  /// The cell's cut: found, or made by `make` once for all threads. Null when the memory is used up: the caller makes
+  /// its own.
   const Cut* findOrMake(const CellCoordinates& cell, const std::function<Cut()>& make);
   /// The cell's cut if it was made.
   const Cut* find(const CellCoordinates& cell) const;

@@ -25,7 +25,8 @@ LightTrees::LightTrees(const Lights& lights, int exponent, std::chrono::steady_c
       buildSeconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
 
 TreeStatistics LightTrees::statistics() const {
-  return {local.nodes().size() + distant.nodes().size(), std::max(local.depth(), distant.depth()), buildSeconds_, bytes()};
+  return {local.nodes().size() + distant.nodes().size(), std::max(local.depth(), distant.depth()), buildSeconds_,
+          bytes()};
 }
 
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
@@ -74,7 +75,8 @@ void findCut(const LightTrees& trees, const Region& region, const CutSettings& s
   double sum = 0;
   const auto below = [](const Cluster& a, const Cluster& b) {
     // Equal estimates are told apart, so that the cut does not depend on the history of the heap.
-    return a.estimate != b.estimate ? a.estimate < b.estimate : std::pair(a.distant, a.node) > std::pair(b.distant, b.node);
+    return a.estimate != b.estimate ? a.estimate < b.estimate
+                                    : std::pair(a.distant, a.node) > std::pair(b.distant, b.node);
   };
   const auto add = [&](const LightTree& tree, bool distant, NodeId node) {
     const std::optional<Cluster> cluster =
@@ -137,7 +139,8 @@ std::optional<std::size_t> Cut::clusterOf(const LightTrees& trees, std::uint32_t
 }
 
 std::size_t Cut::bytes() const {
-  return sizeof(Cut) + clusters_.bytes() + nodes_.capacity() * sizeof(NodeId) + firstLeaf_.capacity() * sizeof(std::uint32_t);
+  return sizeof(Cut) + clusters_.bytes() + nodes_.capacity() * sizeof(NodeId) +
+         firstLeaf_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace cellcut

@@ -1,7 +1,8 @@
 /// \file cut.h
 /// A cut through the light trees for a region: the clusters that one light is chosen from there.
 ///
-/// Source: Vévoda and Křivánek 2016 (estimates milder than bounds, relative threshold); the search: Walter et al. 2005, section 3.
+/// Source: Vévoda and Křivánek 2016 (estimates milder than bounds, relative threshold); the search: Walter et al. 2005,
+/// section 3.
 #pragma once
 
 #include "renderer/lights/light_tree.h"
@@ -46,19 +47,19 @@ struct Region {
 /// One cluster as seen from a region.
 struct Cluster {
   NodeId node;
-  bool distant;    ///< of the distant tree
-  float estimate;  ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
-  Vec3 direction;  ///< unit, from the region to the cluster
+  bool distant;                ///< of the distant tree
+  float estimate;              ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
+  Vec3 direction;              ///< unit, from the region to the cluster
   float cosThetaU, sinThetaU;  ///< all directions from the region to the cluster are within θu of `direction`
 };
 
-/// Whether and how much a node can send to a region: estimate J · cos θ' / d̄², θ' the least angle to an emission axis, d̄ a mean
-/// distance. Nothing only if no light of the node can reach any point of the region.
+/// Whether and how much a node can send to a region: estimate J · cos θ' / d̄², θ' the least angle to an emission axis,
+/// d̄ a mean distance. Nothing only if no light of the node can reach any point of the region.
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId node, const Region& region);
 Cluster distantCluster(const LightTree& tree, NodeId node);
 
-/// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a function of
-/// its arguments alone.
+/// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a
+/// function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
 
 /// A cut in the form in which it is evaluated.
@@ -71,7 +72,8 @@ class Cut {
   const ClusterArrays& clusters() const { return clusters_; }
   NodeId node(std::size_t cluster) const { return nodes_[cluster]; }
   bool isDistant(std::size_t cluster) const { return cluster >= localCount_; }
-  /// The cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped or belongs to no cluster.
+  /// The cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped or belongs to no
+  /// cluster.
   std::optional<std::size_t> clusterOf(const LightTrees& trees, std::uint32_t leaf) const;
   std::size_t bytes() const;
 

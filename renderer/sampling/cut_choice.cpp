@@ -19,8 +19,8 @@ struct Weights {
   }
 };
 
-/// Position of the element of `weights` that holds target ∈ [0, Σ); `target` becomes the uniform number that is left. Elements of
-/// weight 0 are never returned. \pre Σ > 0
+/// Position of the element of `weights` that holds target ∈ [0, Σ); `target` becomes the uniform number that is left.
+/// Elements of weight 0 are never returned. \pre Σ > 0
 std::size_t choose(std::span<const float> weights, double& target) {
   std::size_t chosen = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -45,7 +45,9 @@ std::size_t chooseCluster(const Weights& w, std::size_t blocks, double& u) {
   return block * kClusterBlock + choose(inBlock, u);
 }
 
-const LightTree& treeOf(const LightTrees& trees, bool distant) { return distant ? trees.distant : trees.local; }
+const LightTree& treeOf(const LightTrees& trees, bool distant) {
+  return distant ? trees.distant : trees.local;
+}
 
 }  // namespace
 
@@ -53,7 +55,8 @@ float nodeImportance(const LightTree& tree, bool distant, NodeId node, const Sha
   const std::optional<Cluster> cluster =
       distant ? std::optional(distantCluster(tree, node)) : localCluster(tree, node, {point.p, 0});
   if (!cluster) return 0;
-  return cluster->estimate * receiverCosine(glm::dot(point.n, cluster->direction), cluster->cosThetaU, cluster->sinThetaU);
+  return cluster->estimate *
+         receiverCosine(glm::dot(point.n, cluster->direction), cluster->cosThetaU, cluster->sinThetaU);
 }
 
 std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
@@ -91,8 +94,8 @@ double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Shad
   return pmf;
 }
 
-std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point,
-                                      double u) {
+std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster,
+                                      const ShadingPoint& point, double u) {
   if (cut.size() == 0) return std::nullopt;
   const Weights w(cut, point.n);
   if (!(w.sum > 0)) return std::nullopt;

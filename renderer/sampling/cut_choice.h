@@ -15,13 +15,14 @@ struct SampledLeaf {
   std::uint32_t leaf;
   double pmf;
 };
-std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, double u);
+std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
+                                           double u);
 double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf);
 
 /// A light of a cut. Nothing when no light of it can reach the point.
 /// \pre cut.size() ≤ kMaxCutSize
-std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point,
-                                      double u);
+std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster,
+                                      const ShadingPoint& point, double u);
 float pmfInCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point, LightId light);
 
 }  // namespace cellcut

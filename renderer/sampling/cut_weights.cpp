@@ -83,7 +83,9 @@ ClusterArrays::ClusterArrays(std::size_t count) : size(count) {
   std::fill_n(values.get(), floats, 0.0f);
 }
 
-void ClusterArrays::Free::operator()(float* p) const { hwy::FreeAlignedBytes(p, nullptr, nullptr); }
+void ClusterArrays::Free::operator()(float* p) const {
+  hwy::FreeAlignedBytes(p, nullptr, nullptr);
+}
 
 }  // namespace cellcut
 #endif

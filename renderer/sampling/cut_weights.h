@@ -35,8 +35,8 @@ struct ClusterArrays {
 /// Rounding of a cosine bound in float. Without it 1.5 % of adversarial grazing cases lose a light.
 inline constexpr float kCosineMargin = 1e-5f;
 
-/// Largest cosine at a receiver that directions within θu of one at angle θ can have, cos(max(0, θ − θu)), rounded up; 0 only where
-/// none is above the horizon.
+/// Largest cosine at a receiver that directions within θu of one at angle θ can have, cos(max(0, θ − θu)), rounded up;
+/// 0 only where none is above the horizon.
 inline float receiverCosine(float cosTheta, float cosThetaU, float sinThetaU) {
   if (cosTheta >= cosThetaU) return 1;
   return std::max(0.0f, cosTheta * cosThetaU + safeSqrt(1 - cosTheta * cosTheta) * sinThetaU + kCosineMargin);

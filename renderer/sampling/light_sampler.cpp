@@ -9,12 +9,18 @@ namespace cellcut {
 std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights, const SamplerSettings& settings,
                                                std::span<const Vec3> pilot) {
   switch (strategy) {
-    case Strategy::kUniform: return makeUniformSampler(lights);
-    case Strategy::kPower: return makePowerSampler(lights);
-    case Strategy::kProportional: return makeProportionalSampler(lights);
-    case Strategy::kCellCut: return makeCellCutSampler(lights, settings, pilot);
-    case Strategy::kPointCut: return makePointCutSampler(lights, settings);
-    case Strategy::kLightTree: return makeLightTreeSampler(lights);
+    case Strategy::kUniform:
+      return makeUniformSampler(lights);
+    case Strategy::kPower:
+      return makePowerSampler(lights);
+    case Strategy::kProportional:
+      return makeProportionalSampler(lights);
+    case Strategy::kCellCut:
+      return makeCellCutSampler(lights, settings, pilot);
+    case Strategy::kPointCut:
+      return makePointCutSampler(lights, settings);
+    case Strategy::kLightTree:
+      return makeLightTreeSampler(lights);
   }
   assert(false);
   return nullptr;

@@ -41,7 +41,7 @@ class LightSampler {
 
 /// Builds a strategy over lights that outlive it.
 /// \param pilot  points like those that it will be asked at, a fixed sample: they size the grid of cells
-std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights, const SamplerSettings& settings = {},
-                                               std::span<const Vec3> pilot = {});
+std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights,
+                                               const SamplerSettings& settings = {}, std::span<const Vec3> pilot = {});
 
 }  // namespace cellcut

@@ -48,6 +48,8 @@ class LightTreeSampler final : public LightSampler {
 
 }  // namespace
 
-std::unique_ptr<LightSampler> makeLightTreeSampler(const Lights& lights) { return std::make_unique<LightTreeSampler>(lights); }
+std::unique_ptr<LightSampler> makeLightTreeSampler(const Lights& lights) {
+  return std::make_unique<LightTreeSampler>(lights);
+}
 
 }  // namespace cellcut

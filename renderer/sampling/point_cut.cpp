@@ -4,8 +4,8 @@
 namespace cellcut {
 namespace {
 
-/// A cut found anew at every point, without cells. Source: Wang and Åkerlund 2009, "Bidirectional Importance Sampling for
-/// Unstructured Direct Illumination".
+/// A cut found anew at every point, without cells. Source: Wang and Åkerlund 2009, "Bidirectional Importance Sampling
+/// for Unstructured Direct Illumination".
 class PointCutSampler final : public LightSampler {
  public:
   PointCutSampler(const Lights& lights, const SamplerSettings& settings) : trees_(lights), settings_(settings) {}

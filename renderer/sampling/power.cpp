@@ -30,6 +30,8 @@ class PowerSampler final : public LightSampler {
 
 }  // namespace
 
-std::unique_ptr<LightSampler> makePowerSampler(const Lights& lights) { return std::make_unique<PowerSampler>(lights); }
+std::unique_ptr<LightSampler> makePowerSampler(const Lights& lights) {
+  return std::make_unique<PowerSampler>(lights);
+}
 
 }  // namespace cellcut

@@ -33,7 +33,8 @@ class ProportionalSampler final : public LightSampler {
  private:
   double totalIrradiance(const ShadingPoint& point) const {
     double sum = 0;
-    for (std::size_t i = 0; i < lights_.size(); ++i) sum += lights_.irradiance(static_cast<LightId>(i), point.p, point.n);
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+      sum += lights_.irradiance(static_cast<LightId>(i), point.p, point.n);
     return sum;
   }
 

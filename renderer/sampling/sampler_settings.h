@@ -18,9 +18,9 @@ enum class InCluster : std::uint8_t {
 
 /// Of the strategies with cuts; the others ignore them.
 struct SamplerSettings {
-  float threshold = 0.001f;      ///< a cluster above this share of the cut's estimate is split; [0, 1]
-  int maxCut = 128;              ///< most clusters of a cut; 2 … kMaxCutSize
-  int gridResolution = 64;       ///< cells along the longest axis of what is seen; 1 … 1024
+  float threshold = 0.001f;  ///< a cluster above this share of the cut's estimate is split; [0, 1]
+  int maxCut = 128;          ///< most clusters of a cut; 2 … kMaxCutSize
+  int gridResolution = 64;   ///< cells along the longest axis of what is seen; 1 … 1024
   InCluster inCluster = InCluster::kIntensity;
   std::size_t cellMemory = std::size_t{256} << 20;  ///< bytes of kept cuts; beyond, cuts are found again at every use
 };
@@ -34,15 +34,15 @@ struct GridStatistics {
   std::size_t touched = 0;          ///< cells that were made, inside the box or outside
 };
 struct CutStatistics {
-  std::size_t min = 0, max = 0;     ///< clusters
+  std::size_t min = 0, max = 0;  ///< clusters
   double mean = 0;
-  double seconds = 0;               ///< of all threads together
+  double seconds = 0;  ///< of all threads together
   std::size_t bytes = 0;
 };
 struct TreeStatistics {
   std::size_t nodes = 0;
   int depth = 0;
-  double seconds = 0;               ///< of the build
+  double seconds = 0;  ///< of the build
   std::size_t bytes = 0;
 };
 /// What a strategy has of each.

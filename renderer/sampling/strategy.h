@@ -21,12 +21,15 @@ inline constexpr std::array kStrategies{
     StrategyName{Strategy::kUniform, "uniform", "every light with the same probability"},
     StrategyName{Strategy::kPower, "power", "lights by their flux, wherever they are"},
     StrategyName{Strategy::kProportional, "proportional", "lights by their unoccluded irradiance at the point; O(N)"},
-    StrategyName{Strategy::kCellCut, "cell-cut", "a cut through the light trees per grid cell, lights by its cached estimates"},
+    StrategyName{Strategy::kCellCut, "cell-cut",
+                 "a cut through the light trees per grid cell, lights by its cached estimates"},
     StrategyName{Strategy::kPointCut, "point-cut", "a cut found anew at every point, without cells"},
     StrategyName{Strategy::kLightTree, "light-tree", "one random descent through the light tree"},
 };
 
-constexpr std::string_view nameOf(Strategy strategy) { return kStrategies[static_cast<std::size_t>(strategy)].name; }
+constexpr std::string_view nameOf(Strategy strategy) {
+  return kStrategies[static_cast<std::size_t>(strategy)].name;
+}
 
 constexpr std::optional<Strategy> strategyFromName(std::string_view name) {
   for (const StrategyName& s : kStrategies) {

@@ -5,12 +5,16 @@
 namespace cellcut {
 namespace {
 
-/// Smallest GGX α. Below it the lobe is narrower than the half vectors that float directions can express (10⁻⁷ against α² = 10⁻⁶).
+/// Smallest GGX α. Below it the lobe is narrower than the half vectors that float directions can express (10⁻⁷ against
+/// α² = 10⁻⁶).
 constexpr float kMinAlpha = 1e-3f;
 
-float square(float x) { return x * x; }
+float square(float x) {
+  return x * x;
+}
 
-/// Trowbridge–Reitz density of microfacet normals. Source: Walter et al. 2007, written without a tangent so that it is precise at α = kMinAlpha.
+/// Trowbridge–Reitz density of microfacet normals. Source: Walter et al. 2007, written without a tangent so that it is
+/// precise at α = kMinAlpha.
 float ggxD(float alpha, const Vec3& h) {
   const float e = (h.x * h.x + h.y * h.y) / square(alpha) + h.z * h.z;
   return kInvPi / (square(alpha) * square(e));
@@ -37,8 +41,8 @@ Vec3 sampleVisibleNormal(float alpha, const Vec3& wo, Vec2 u) {
 }  // namespace
 
 // The base gets what the layer lets through, so that a white base under any layer reflects everything once:
-// f = albedo/π · (1 − F(wo)) (1 − F(wi)) / (1 − F̄), with Schlick's F and its cosine-weighted mean F̄ = F0 + (F90 − F0) / 21.
-// Source: Kelemen and Szirmay-Kalos 2001, equation 6.
+// f = albedo/π · (1 − F(wo)) (1 − F(wi)) / (1 − F̄), with Schlick's F and its cosine-weighted mean F̄ = F0 + (F90 − F0)
+// / 21. Source: Kelemen and Szirmay-Kalos 2001, equation 6.
 Bsdf::Bsdf(const BsdfParameters& p)
     : diffuse_(p.diffuse * kInvPi),
       f0_(p.f0),
@@ -78,7 +82,9 @@ Vec3 Bsdf::eval(const Vec3& wo, const Vec3& wi) const {
   return wo.z > 0 && wi.z > 0 ? evalAll(wo, wi).value : Vec3(0.0f);
 }
 
-float Bsdf::pdf(const Vec3& wo, const Vec3& wi) const { return wo.z > 0 && wi.z > 0 ? evalAll(wo, wi).pdf : 0.0f; }
+float Bsdf::pdf(const Vec3& wo, const Vec3& wi) const {
+  return wo.z > 0 && wi.z > 0 ? evalAll(wo, wi).pdf : 0.0f;
+}
 
 std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, float uLobe, Vec2 u) const {
   if (!(wo.z > 0)) return std::nullopt;

@@ -1,8 +1,8 @@
 /// \file bsdf.h
 /// Lambert under GGX: the metallic-roughness model of glTF 2.0.
 ///
-/// Directions are unit, in the shading frame (z = shading normal), and point away from the surface. Both must be above it; there is
-/// no transmission.
+/// Directions are unit, in the shading frame (z = shading normal), and point away from the surface. Both must be above
+/// it; there is no transmission.
 #pragma once
 
 #include "renderer/base/math.h"
@@ -19,12 +19,12 @@ struct BsdfSample {
 
 /// What the material gives at a point.
 struct BsdfParameters {
-  Vec3 diffuse{0.0f};    ///< albedo of the Lambertian base, already times 1 − metallic
-  Vec3 f0{0.0f};         ///< reflectance at normal incidence
-  float f90 = 0;         ///< and at grazing
-  float dielectricF0 = 0;   ///< of the dielectric layer alone, largest channel: what the base does not get
+  Vec3 diffuse{0.0f};      ///< albedo of the Lambertian base, already times 1 − metallic
+  Vec3 f0{0.0f};           ///< reflectance at normal incidence
+  float f90 = 0;           ///< and at grazing
+  float dielectricF0 = 0;  ///< of the dielectric layer alone, largest channel: what the base does not get
   float dielectricF90 = 0;
-  float roughness = 1;   ///< [0, 1]
+  float roughness = 1;  ///< [0, 1]
 };
 
 class Bsdf {

@@ -38,7 +38,8 @@ struct TexelFootprint {
   const ImageRgba8* texels;
   const Texture* texture;
 };
-std::optional<TexelFootprint> footprint(const Scene& scene, const TextureSlot& slot, const Mesh& mesh, std::uint32_t triangle) {
+std::optional<TexelFootprint> footprint(const Scene& scene, const TextureSlot& slot, const Mesh& mesh,
+                                        std::uint32_t triangle) {
   if (!slot.texture || mesh.texCoords[slot.texCoord].empty()) return std::nullopt;
   const Texture& texture = scene.textures[indexOf(*slot.texture)];
   const ImageRgba8& texels = scene.texels[indexOf(texture.texels)];
@@ -91,7 +92,9 @@ float coverage(const Scene& scene, const SurfaceCoordinates& at) {
   return alpha;
 }
 
-Vec3 baseColor(const Scene& scene, const SurfaceCoordinates& at) { return Vec3(baseColorAlpha(scene, at)); }
+Vec3 baseColor(const Scene& scene, const SurfaceCoordinates& at) {
+  return Vec3(baseColorAlpha(scene, at));
+}
 
 Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3& geometricNormal) {
   if (at.mesh->normals.empty()) return geometricNormal;
@@ -109,7 +112,8 @@ Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3&
       const Vec3 tangent = inPlane / tangentLength;
       const Vec3 bitangent = (tangent4.w < 0 ? -1.0f : 1.0f) * glm::cross(normal, tangent);
       const Vec3 texel = Vec3(slotValue(scene, material.normalTexture, TexelEncoding::kLinear, at)) * 2.0f - Vec3(1);
-      const Vec3 bent = texel.x * material.normalScale * tangent + texel.y * material.normalScale * bitangent + texel.z * normal;
+      const Vec3 bent =
+          texel.x * material.normalScale * tangent + texel.y * material.normalScale * bitangent + texel.z * normal;
       const float bentLength = glm::length(bent);
       if (bentLength > 0) normal = bent / bentLength;
     }

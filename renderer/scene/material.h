@@ -29,10 +29,12 @@ Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3&
 /// The BSDF of a material that is not unlit.
 Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at);
 
-/// Number n of parts per edge, [1, 64], so that n² parts of the triangle are about as fine as the textures of emission and coverage.
+/// Number n of parts per edge, [1, 64], so that n² parts of the triangle are about as fine as the textures of emission
+/// and coverage.
 int emissionResolution(const Scene& scene, const Mesh& mesh, std::uint32_t triangle);
 
-/// False only if no point of the triangle can have a positive emission: every texel that a lookup on it can touch is black.
+/// False only if no point of the triangle can have a positive emission: every texel that a lookup on it can touch is
+/// black.
 bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle);
 
 }  // namespace cellcut

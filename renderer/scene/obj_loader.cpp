@@ -130,7 +130,9 @@ void ObjReader::addFace(std::span<const tinyobj::index_t> indices) {
   if (triangles_ > kMaxTriangles) throw InputError(draft_.name, "has too many triangles");
   PartBuilder& part = parts_[{current_, hasNormals, hasTexCoords}];
   for (const auto& [a, b, c] : triangulate(polygon)) {
-    part.triangles.emplace_back(part.vertex(corners[a]), part.vertex(corners[b]), part.vertex(corners[c]));
+    const std::uint32_t first = part.vertex(corners[a]), second = part.vertex(corners[b]),
+                        third = part.vertex(corners[c]);
+    part.triangles.emplace_back(first, second, third);
   }
 }
 

@@ -45,8 +45,8 @@ struct Texture {
 /// Where a material's parameter comes from: nothing, or a texture with its coordinates.
 struct TextureSlot {
   std::optional<TextureId> texture;
-  std::uint8_t texCoord = 0;        ///< 0 or 1: which set of Mesh::texCoords
-  glm::mat2 uvLinear{1.0f};         ///< KHR_texture_transform: uv' = uvLinear · uv + uvOffset
+  std::uint8_t texCoord = 0;  ///< 0 or 1: which set of Mesh::texCoords
+  glm::mat2 uvLinear{1.0f};   ///< KHR_texture_transform: uv' = uvLinear · uv + uvOffset
   Vec2 uvOffset{0.0f};
 };
 
@@ -56,24 +56,24 @@ enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
 /// A slot's texel multiplies the factor beside it, channel for channel as the specification says.
 struct Material {
   std::string name;
-  Vec4 baseColor{1.0f};            ///< linear RGB in [0, 1], alpha = coverage
-  TextureSlot baseColorTexture;    ///< sRGB, alpha linear
-  float metallic = 1;              ///< [0, 1]
-  float roughness = 1;             ///< [0, 1]; GGX alpha = roughness²
+  Vec4 baseColor{1.0f};                  ///< linear RGB in [0, 1], alpha = coverage
+  TextureSlot baseColorTexture;          ///< sRGB, alpha linear
+  float metallic = 1;                    ///< [0, 1]
+  float roughness = 1;                   ///< [0, 1]; GGX alpha = roughness²
   TextureSlot metallicRoughnessTexture;  ///< linear; G roughness, B metallic
-  float specular = 1;              ///< strength of the dielectric reflection, F90
-  TextureSlot specularTexture;     ///< linear; A
-  Vec3 specularColor{1.0f};        ///< tint of F0
-  TextureSlot specularColorTexture;  ///< sRGB
-  float ior = 1.5f;                ///< F0 = ((ior − 1) / (ior + 1))²; 0 means F0 = 1 (KHR_materials_ior)
-  TextureSlot normalTexture;       ///< linear, tangent space
+  float specular = 1;                    ///< strength of the dielectric reflection, F90
+  TextureSlot specularTexture;           ///< linear; A
+  Vec3 specularColor{1.0f};              ///< tint of F0
+  TextureSlot specularColorTexture;      ///< sRGB
+  float ior = 1.5f;                      ///< F0 = ((ior − 1) / (ior + 1))²; 0 means F0 = 1 (KHR_materials_ior)
+  TextureSlot normalTexture;             ///< linear, tangent space
   float normalScale = 1;
-  Vec3 emission{0.0f};             ///< W/(m² sr): emissiveFactor · emissiveStrength
-  TextureSlot emissionTexture;     ///< sRGB
+  Vec3 emission{0.0f};          ///< W/(m² sr): emissiveFactor · emissiveStrength
+  TextureSlot emissionTexture;  ///< sRGB
   AlphaMode alphaMode = AlphaMode::kOpaque;
-  float alphaCutoff = 0.5f;        ///< of kMask
-  bool doubleSided = false;        ///< also: emits from both sides
-  bool unlit = false;              ///< shows baseColor as radiance, scatters nothing, is no light
+  float alphaCutoff = 0.5f;  ///< of kMask
+  bool doubleSided = false;  ///< also: emits from both sides
+  bool unlit = false;        ///< shows baseColor as radiance, scatters nothing, is no light
 };
 
 /// Leaves 16 bytes after the last element, as Embree needs of a vertex buffer that it shares with us.
@@ -96,10 +96,10 @@ struct Mesh {
   MaterialId material{};
   std::vector<Vec3, PaddedAllocator<Vec3>> positions;  ///< metres
   std::vector<Vec3> normals;                           ///< unit; empty: flat shading
-  std::vector<Vec4> tangents;                          ///< unit, w = ±1 handedness; only where a normal texture needs it
-  std::array<std::vector<Vec2>, 2> texCoords;          ///< TEXCOORD_0 and TEXCOORD_1
-  std::vector<Vec4> colors;                            ///< COLOR_0, linear; multiplies baseColor
-  std::vector<Triangle> triangles;                     ///< none degenerate: every area > 0 and finite
+  std::vector<Vec4> tangents;                  ///< unit, w = ±1 handedness; only where a normal texture needs it
+  std::array<std::vector<Vec2>, 2> texCoords;  ///< TEXCOORD_0 and TEXCOORD_1
+  std::vector<Vec4> colors;                    ///< COLOR_0, linear; multiplies baseColor
+  std::vector<Triangle> triangles;             ///< none degenerate: every area > 0 and finite
 };
 
 struct PointLight {
@@ -123,8 +123,8 @@ struct DirectionalLight {
 
 /// Lat-long radiance at infinity. See environment.h for the mapping.
 struct Environment {
-  ImageRgb radiance;       ///< W/(m² sr), scale applied; finite and not negative
-  float rotation = 0;      ///< radians about +Y, counter-clockwise seen from above
+  ImageRgb radiance;   ///< W/(m² sr), scale applied; finite and not negative
+  float rotation = 0;  ///< radians about +Y, counter-clockwise seen from above
 };
 
 /// Looks along −z of its frame, y up.
@@ -133,8 +133,8 @@ struct Camera {
   bool orthographic = false;
   Vec3 position{0.0f};
   Vec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};  ///< unit and orthogonal
-  float verticalFov = 0.8f;  ///< radians, (0, π); perspective only
-  float halfHeight = 1;      ///< metres; orthographic only
+  float verticalFov = 0.8f;                         ///< radians, (0, π); perspective only
+  float halfHeight = 1;                             ///< metres; orthographic only
 };
 
 /// What the file held before it was flattened, for `info`.
@@ -155,9 +155,9 @@ struct Scene {
   std::optional<Environment> environment;
   std::vector<Camera> cameras;  ///< at least one after loading: a default view is added when the file has none
 
-  Bounds bounds;                 ///< of all triangles and local lights, around the origin
-  glm::dvec3 origin{0.0};        ///< file coordinates of our (0, 0, 0)
-  std::string generator;         ///< who wrote the file, if it says so
+  Bounds bounds;           ///< of all triangles and local lights, around the origin
+  glm::dvec3 origin{0.0};  ///< file coordinates of our (0, 0, 0)
+  std::string generator;   ///< who wrote the file, if it says so
   SceneCounts counts;
   std::vector<std::string> warnings;  ///< each once, ready to be shown
 

@@ -61,7 +61,12 @@ std::filesystem::path SceneFolder::resolve(const std::string& reference) const {
 }
 
 std::vector<std::byte> SceneFolder::read(const std::string& reference) const {
-  return readFile(resolve(reference), kMaxSceneFileBytes);
+  const std::filesystem::path file = resolve(reference);
+  try {
+    return readFile(file, kMaxSceneFileBytes);
+  } catch (const InputError& error) {
+    throw InputError(scene_, error.what());  // who asks for a file that is missing is half of the answer
+  }
 }
 
 }  // namespace cellcut

@@ -1,5 +1,7 @@
 #include "renderer/scene/texture.h"
 
+#include "renderer/base/srgb.h"
+
 #include <array>
 
 namespace cellcut {
@@ -61,14 +63,6 @@ Vec4 decode(const glm::vec<4, std::uint8_t>& texel, const std::array<float, 256>
 }
 
 }  // namespace
-
-float srgbToLinear(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
-float linearToSrgb(float linear) {
-  return linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
 
 Vec4 lookup(const Scene& scene, const Texture& texture, TexelEncoding encoding, Vec2 uv) {
   const ImageRgba8& image = scene.texels[indexOf(texture.texels)];

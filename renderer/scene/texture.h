@@ -6,11 +6,6 @@
 
 namespace cellcut {
 
-/// sRGB electro-optical transfer function (IEC 61966-2-1), [0, 1] → [0, 1].
-float srgbToLinear(float encoded);
-/// Its inverse.
-float linearToSrgb(float linear);
-
 enum class TexelEncoding : std::uint8_t { kLinear, kSrgb };  ///< of RGB; alpha is always linear
 
 /// Bilinear (or nearest) lookup. Texel (0, 0) is at the top left and covers uv [0, 1/width) × [0, 1/height) as in glTF.

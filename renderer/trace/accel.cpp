@@ -42,8 +42,8 @@ struct CoveredMesh {
   const Mesh* mesh;
 };
 
-/// Rejects a hit with probability 1 − coverage. The number is a hash of (ray, triangle): it does not depend on the order in which
-/// Embree meets the triangles.
+/// Rejects a hit with probability 1 − coverage. The number is a hash of (ray, triangle): it does not depend on the
+/// order in which Embree meets the triangles.
 void filterCoverage(const RTCFilterFunctionNArguments* args) {
   const auto& covered = *static_cast<const CoveredMesh*>(args->geometryUserPtr);
   const auto& context = *reinterpret_cast<const CoverageContext*>(args->context);
@@ -58,7 +58,9 @@ RTCRay embreeRay(const Ray& ray) {
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = 0;
+  // Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin, where there is no
+  // rounding error to be moved past, meets its own triangle at exactly 0.
+  r.tnear = std::numeric_limits<float>::min();
   r.tfar = ray.tMax;
   r.time = 0;
   r.mask = 0xffffffffu;
@@ -84,8 +86,8 @@ struct Accel::State {
 
 void Accel::State::attach(const Mesh& mesh, unsigned id, bool partlyCovered) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0, sizeof(Vec3),
-                             mesh.positions.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
+                             sizeof(Vec3), mesh.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                              sizeof(Triangle), mesh.triangles.size());
   if (partlyCovered) {
@@ -121,9 +123,12 @@ Accel::Accel(const Scene& scene) : state_(std::make_unique<State>()) {
   }
   rtcCommitScene(state_->scene);
   switch (rtcGetDeviceError(state_->device)) {
-    case RTC_ERROR_NONE: break;
-    case RTC_ERROR_OUT_OF_MEMORY: throw std::bad_alloc();
-    default: throw std::runtime_error("Embree could not build the scene");
+    case RTC_ERROR_NONE:
+      break;
+    case RTC_ERROR_OUT_OF_MEMORY:
+      throw std::bad_alloc();
+    default:
+      throw std::runtime_error("Embree could not build the scene");
   }
 }
 
@@ -162,6 +167,8 @@ bool Accel::occluded(const Ray& ray, std::uint32_t seed) const {
   return query.tfar < 0;
 }
 
-std::size_t Accel::bytes() const { return static_cast<std::size_t>(state_->bytes.load()); }
+std::size_t Accel::bytes() const {
+  return static_cast<std::size_t>(state_->bytes.load());
+}
 
 }  // namespace cellcut

@@ -19,7 +19,8 @@ struct Hit {
 
 class Accel {
  public:
-  /// Builds on the threads of the calling TBB arena. The scene must outlive it: vertices and indices are shared, not copied.
+  /// Builds on the threads of the calling TBB arena. The scene must outlive it: vertices and indices are shared, not
+  /// copied.
   explicit Accel(const Scene& scene);
   ~Accel();
   Accel(Accel&&) noexcept;

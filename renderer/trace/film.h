@@ -1,9 +1,9 @@
 /// \file film.h
 /// Per-pixel sums of samples.
 ///
-/// A pass writes one sample per pixel into a buffer of its own (record) and is then added as a whole (commit) or forgotten, so that
-/// a pass that was interrupted leaves no trace. Sums are in double: after 10⁸ samples a pixel is right to 10⁻⁶.
-/// Threads: record() may run concurrently for different pixels; everything else by one thread at a time.
+/// A pass writes one sample per pixel into a buffer of its own (record) and is then added as a whole (commit) or
+/// forgotten, so that a pass that was interrupted leaves no trace. Sums are in double: after 10⁸ samples a pixel is
+/// right to 10⁻⁶. Threads: record() may run concurrently for different pixels; everything else by one thread at a time.
 #pragma once
 
 #include "renderer/base/image.h"
@@ -43,14 +43,18 @@ class Film {
 
   /// Mean radiance; black before the first pass.
   ImageRgb mean() const;
-  /// Standard error of the mean per channel, from the variance between samples; 0 with fewer than two passes. With Sobol' points
-  /// the samples of a pixel are not independent and the real error is smaller.
+  /// Standard error of the mean per channel, from the variance between samples; 0 with fewer than two passes. With
+  /// Sobol' points the samples of a pixel are not independent and the real error is smaller.
   ImageRgb standardError() const;
-  /// Estimate of √relMSE of mean(): per channel standardError² / (mean² + ε), averaged over channels and pixels, square root;
-  /// ε = 0.01 · (mean of the picture)² as in `compare`. Infinity with fewer than two passes.
+  /// Estimate of √relMSE of mean(): per channel standardError² / (mean² + ε), averaged over channels and pixels, square
+  /// root; ε = 0.01 · (mean of the picture)² as in `compare`. Infinity with fewer than two passes.
   double relativeError() const;
   BadSamples badSamples() const { return bad_; }
   std::size_t bytes() const;
+  /// What a pixel of such a film takes, to know before it is made whether there is room.
+  static std::size_t bytesPerPixel(bool auxiliary) {
+    return sizeof(Sums) + sizeof(Vec3) + (auxiliary ? sizeof(Auxiliary) + sizeof(PendingAuxiliary) : 0);
+  }
 
   /// "" (RGB), "albedo" (RGB), "normal" (XYZ), "depth" (Z) and "error" (RGB, standard error of the mean); no metadata.
   LayeredImage layers() const;
@@ -72,7 +76,7 @@ class Film {
   Image<glm::dvec3> errors() const;
 
   Image<Sums> sums_;
-  Image<Auxiliary> auxiliary_;        ///< empty unless asked for
+  Image<Auxiliary> auxiliary_;  ///< empty unless asked for
   Image<Vec3> pendingRadiance_;
   Image<PendingAuxiliary> pendingAuxiliary_;  ///< empty unless asked for
   std::uint64_t passes_ = 0;

@@ -1,17 +1,16 @@
 #include "renderer/trace/integrator.h"
 
-#include "renderer/scene/material.h"
 #include "renderer/trace/surface.h"
 
 namespace cellcut {
 namespace {
 
-/// From this vertex on a path survives with the probability of its throughput. Two free bounces keep the variance of what is seen
-/// first low.
+/// From this vertex on a path survives with the probability of its throughput. Two free bounces keep the variance of
+/// what is seen first low.
 constexpr int kRouletteDepth = 2;
 
-/// Weight of a sample of density a against a strategy of density b. Source: Veach 1997, power heuristic, β = 2; as a ratio, so that
-/// no square overflows.
+/// Weight of a sample of density a against a strategy of density b. Source: Veach 1997, power heuristic, β = 2; as a
+/// ratio, so that no square overflows.
 float powerHeuristic(float a, float b) {
   const float ratio = b / a;
   return 1 / (1 + ratio * ratio);
@@ -60,31 +59,35 @@ class Path {
       : context_(context), random_(random), counts_(counts) {}
 
   PathSample trace(Ray ray) {
-    Sample4 numbers = random_.next();
+    std::uint64_t coverageBits = random_.nextBits();
     for (int depth = 0;; ++depth) {
-      const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
+      if (context_.record) context_.record->rays.push_back({ray, false});
+      const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(coverageBits));
       if (!hit) {
         addEnvironment(ray.direction);
         break;
       }
+      const Material& material = context_.scene.materials[indexOf(context_.scene.meshes[indexOf(hit->mesh)].material)];
+      const bool last = depth == context_.maxDepth;
+      if (last && depth > 0 && isBlack(material.emission) && !material.unlit) break;
       const SurfacePoint surface = surfaceAt(context_.scene, *hit);
-      const Material& material = context_.scene.materials[indexOf(surface.at.mesh->material)];
       if (depth == 0) recordFirstHit(surface, *hit, ray);
       if (material.unlit) {
         result_.radiance += throughput_ * baseColor(context_.scene, surface.at);
         break;
       }
       addEmission(surface, material, *hit, ray.direction);
-      if (depth == context_.maxDepth) break;
+      if (last) break;
 
       const Vertex vertex = makeVertex(context_.scene, surface, -ray.direction);
       if (depth == 0) result_.normal = vertex.frame.z;
       addDirectLight(vertex);
       if (depth + 1 == context_.maxDepth && !context_.bounceCanFind) break;
-      numbers = random_.next();
+      const Sample4 numbers = random_.next();
       const std::optional<Ray> next = scatter(vertex, numbers);
       if (!next || !survives(depth, numbers)) break;
       ++counts_.bounceRays;
+      coverageBits = numbers.extra;
       ray = *next;
     }
     return result_;
@@ -123,6 +126,7 @@ class Path {
   }
 
   void addDirectLight(const Vertex& vertex) {
+    if (context_.record) context_.record->vertices.push_back(vertex.shadingPoint());
     const Sample4 numbers = random_.next();
     const std::optional<SampledLight> choice = context_.sampler.sample(vertex.shadingPoint(), numbers.wide(0));
     if (!choice) return;
@@ -138,6 +142,7 @@ class Path {
     const Vec3 origin = offsetRayOrigin(vertex.surface.p, vertex.surface.error, vertex.normal, light->wi);
     const Ray ray = light->distant ? Ray{origin, light->wi} : shadowRay(origin, light->end);
     ++counts_.shadowRays;
+    if (context_.record) context_.record->rays.push_back({ray, true});
     if (context_.accel.occluded(ray, static_cast<std::uint32_t>(numbers.extra))) return;
     const float pdf = choice->pmf * light->pdf;
     const float weight = light->delta ? 1.0f : powerHeuristic(pdf, scattering.pdf);

@@ -1,5 +1,6 @@
 /// \file integrator.h
-/// One camera path: radiance by path tracing with next-event estimation and multiple importance sampling at every vertex.
+/// One camera path: radiance by path tracing with next-event estimation and multiple importance sampling at every
+/// vertex.
 ///
 /// The integrator asks a LightSampler for one light and knows nothing of how it was chosen.
 #pragma once
@@ -11,14 +12,25 @@
 
 namespace cellcut {
 
+/// What paths did, in order, for benchmarks that do the same again piece by piece.
+struct PathRecord {
+  struct TracedRay {
+    Ray ray;
+    bool shadow;
+  };
+  std::vector<TracedRay> rays;
+  std::vector<ShadingPoint> vertices;  ///< where a light was asked for
+};
+
 /// What a path needs to know; everything outlives it.
 struct PathContext {
   const Scene& scene;
   const Accel& accel;
   const Lights& lights;
   const LightSampler& sampler;
-  int maxDepth;         ///< path vertices that scatter; 1 is direct light only
-  bool bounceCanFind;   ///< BSDF rays can meet radiance: emissive or unlit triangles, or an environment
+  int maxDepth;                  ///< path vertices that scatter; 1 is direct light only
+  bool bounceCanFind;            ///< BSDF rays can meet radiance: emissive or unlit triangles, or an environment
+  PathRecord* record = nullptr;  ///< where to write down what was done; one thread only
 };
 
 struct PathCounts {

@@ -13,7 +13,8 @@
 namespace cellcut {
 namespace {
 
-/// Pixels per side of the square that a thread takes at a time: enough for rays to share Embree's nodes, small enough to spread.
+/// Pixels per side of the square that a thread takes at a time: enough for rays to share Embree's nodes, small enough
+/// to spread.
 constexpr int kTileSize = 16;
 
 bool hasUnlit(const Scene& scene) {
@@ -58,11 +59,12 @@ Renderer::State::State(const Scene& s, const RenderSettings& r)
       accel(arena.execute([&] { return Accel(s); })),
       lights(arena.execute([&] { return Lights(s); })),
       sampler(arena.execute([&] {
-        return makeLightSampler(r.strategy, lights, r.sampler, pilotVertices(s, accel, s.cameras[r.camera], r.maxDepth));
+        return makeLightSampler(r.strategy, lights, r.sampler,
+                                pilotVertices(s, accel, s.cameras[r.camera], r.maxDepth));
       })) {}
 
-void Renderer::State::renderTile(const tbb::blocked_range2d<int>& tile, const PathContext& context, AtomicCounts& counts,
-                                 const std::atomic<bool>& cancel) {
+void Renderer::State::renderTile(const tbb::blocked_range2d<int>& tile, const PathContext& context,
+                                 AtomicCounts& counts, const std::atomic<bool>& cancel) {
   const Camera& camera = scene.cameras[settings.camera];
   const glm::ivec2 size(settings.width, settings.height);
   PathCounts local;
@@ -106,14 +108,28 @@ bool Renderer::renderPass(const std::atomic<bool>& cancel) {
   return true;
 }
 
-const Film& Renderer::film() const { return state_->film; }
-const RenderSettings& Renderer::settings() const { return state_->settings; }
-RayCounts Renderer::rays() const { return state_->rays; }
-std::uint64_t Renderer::droppedSamples() const { return state_->dropped; }
-SamplerStatistics Renderer::samplerStatistics() const { return state_->sampler->statistics(); }
-int Renderer::threads() const { return state_->arena.max_concurrency(); }
+const Film& Renderer::film() const {
+  return state_->film;
+}
+const RenderSettings& Renderer::settings() const {
+  return state_->settings;
+}
+RayCounts Renderer::rays() const {
+  return state_->rays;
+}
+std::uint64_t Renderer::droppedSamples() const {
+  return state_->dropped;
+}
+SamplerStatistics Renderer::samplerStatistics() const {
+  return state_->sampler->statistics();
+}
+int Renderer::threads() const {
+  return state_->arena.max_concurrency();
+}
 
-LightCounts Renderer::lightCounts() const { return state_->lights.counts(); }
+LightCounts Renderer::lightCounts() const {
+  return state_->lights.counts();
+}
 
 MemoryUse Renderer::memory() const {
   return {state_->scene.bytes(), state_->accel.bytes(), state_->lights.bytes() + state_->sampler->bytes(),

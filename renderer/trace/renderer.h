@@ -15,18 +15,17 @@
 
 namespace cellcut {
 
-
 struct RenderSettings {
   int width = 1280;
   int height = 720;
-  int maxDepth = 8;       ///< path vertices that scatter: 1 is direct light only; ≥ 0
+  int maxDepth = 8;  ///< path vertices that scatter: 1 is direct light only; ≥ 0
   Strategy strategy = Strategy::kCellCut;
   SamplerSettings sampler;
   PixelSampling sampling = PixelSampling::kSobol;
   std::uint64_t seed = 0;
-  int threads = 0;        ///< 0: one per hardware thread
-  std::size_t camera = 0; ///< index into Scene::cameras
-  bool auxiliary = true;  ///< albedo, normal and depth layers
+  int threads = 0;         ///< 0: one per hardware thread
+  std::size_t camera = 0;  ///< index into Scene::cameras
+  bool auxiliary = true;   ///< albedo, normal and depth layers
 };
 
 struct RayCounts {

@@ -21,7 +21,10 @@ inline SurfacePoint surfaceAt(const Scene& scene, const Hit& hit) {
   const Vec3 &v0 = mesh.positions[t.x], &v1 = mesh.positions[t.y], &v2 = mesh.positions[t.z];
   const float b0 = 1 - hit.barycentric.x - hit.barycentric.y;
   const Vec3 p = b0 * v0 + hit.barycentric.x * v1 + hit.barycentric.y * v2;
-  return {{&mesh, hit.triangle, hit.barycentric}, p, triangleError(v0, v1, v2), triangleGeometry(mesh, hit.triangle).normal};
+  return {{&mesh, hit.triangle, hit.barycentric},
+          p,
+          triangleError(v0, v1, v2),
+          triangleGeometry(mesh, hit.triangle).normal};
 }
 
 }  // namespace cellcut

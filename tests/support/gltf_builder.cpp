@@ -56,7 +56,9 @@ std::size_t GltfBuilder::addMesh(Json primitive) {
   return add("meshes", {{"primitives", Json::array({std::move(primitive)})}});
 }
 
-std::size_t GltfBuilder::addTriangle() { return addMesh(primitive({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})); }
+std::size_t GltfBuilder::addTriangle() {
+  return addMesh(primitive({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
 
 std::size_t GltfBuilder::addRoot(Json node) {
   const std::size_t index = add("nodes", std::move(node));
@@ -105,7 +107,9 @@ std::string GltfBuilder::gltf() const {
   return copy.dump();
 }
 
-std::filesystem::path GltfBuilder::writeGlb(const std::filesystem::path& file) const { return writeFile(file, glb()); }
+std::filesystem::path GltfBuilder::writeGlb(const std::filesystem::path& file) const {
+  return writeFile(file, glb());
+}
 
 std::filesystem::path GltfBuilder::writeGltf(const std::filesystem::path& file) const {
   return writeFile(file, gltf());

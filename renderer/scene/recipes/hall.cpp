@@ -201,22 +201,17 @@ void Hall::addChandelier(const Vec3& ceiling, float drop, float radius, std::siz
             ? flames - placed
             : std::min(flames - placed, static_cast<std::size_t>(static_cast<float>(flames) * share / sum));
     constexpr int kSegments = 32;
-    addFrustum(iron, centre + Vec3(0, y - 0.03f, 0), r + 0.03f, r + 0.03f, 0.05f, kSegments, kTop | kBottom);
-    Surface inner;
-    addFrustum(inner, centre + Vec3(0, y - 0.03f, 0), r + 0.005f, r + 0.005f, 0.05f, kSegments, kTop | kBottom);
-    const auto first = static_cast<std::uint32_t>(iron.positions.size());
-    for (const Vec3& p : inner.positions) iron.add(p);
-    for (std::size_t t = 0; t < inner.indices.size(); t += 3) {
-      iron.triangle(first + inner.indices[t], first + inner.indices[t + 2], first + inner.indices[t + 1]);
-    }
+    const float in = r + 0.005f, out = r + 0.03f, h = 0.05f;
+    const std::array<Vec2, 8> ring{Vec2{in, 0}, {out, 0}, {out, 0}, {out, h}, {out, h}, {in, h}, {in, h}, {in, 0}};
+    addLathe(palette_.smooth(Paint::kGold), centre + Vec3(0, y - 0.03f, 0), ring, kSegments);
     for (int spoke = 0; spoke < 3; ++spoke) {
       addBox(iron, Pose::turned(centre + Vec3(0, y, 0), kPi * static_cast<float>(spoke) / 3),
-             {-r - 0.004f, -0.02f, -0.012f}, {r + 0.004f, 0.01f, 0.012f}, kLeft | kRight);
+             {-r - 0.008f, -0.02f, -0.012f}, {r + 0.008f, 0.01f, 0.012f}, kLeft | kRight);
     }
     for (std::size_t i = 0; i < here; ++i, ++placed) {
       const float angle = 2 * kPi * static_cast<float>(i) / static_cast<float>(here);
       const Vec3 at = centre + Vec3((r + 0.018f) * std::cos(angle), y + 0.09f, (r + 0.018f) * std::sin(angle));
-      addFlame(Tint::kWarm, radiance, at, std::min<std::size_t>(4, lights - 4 * placed));
+      addFlame(radius > 1 ? Tint::kWarm : Tint::kNeutral, radiance, at, std::min<std::size_t>(4, lights - 4 * placed));
     }
   }
 }

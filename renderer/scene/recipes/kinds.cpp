@@ -56,7 +56,7 @@ std::vector<std::byte> duskSky() {
         const float towards =
             0.5f + 0.5f * glm::dot(glm::normalize(Vec3(d.x, 0, d.z)), glm::normalize(Vec3(toSun.x, 0, toSun.z)));
         const float low = std::exp(-5 * d.y), glow = std::exp(-11 * d.y) * towards * towards;
-        sky = Vec3(0.030f, 0.055f, 0.150f) + low * Vec3(0.10f, 0.09f, 0.13f) + glow * Vec3(0.95f, 0.38f, 0.12f);
+        sky = Vec3(0.065f, 0.110f, 0.280f) + low * Vec3(0.22f, 0.18f, 0.26f) + glow * Vec3(2.0f, 0.80f, 0.26f);
       }
       for (int c = 0; c < 3; ++c) image.layers[0].values.push_back(sky[c]);
     }
@@ -124,7 +124,7 @@ void Terrace::addStructure() {
   Surface& wood = palette_.flat(Paint::kWalnut);
   addBox(wood, {}, {-kHalfWidth, kBeamHeight, kPergolaFront - 0.06f},
          {kHalfWidth, kBeamHeight + 0.16f, kPergolaFront + 0.06f});
-  for (const float x : {0.2f, kHalfWidth - 0.1f}) {
+  for (const float x : {0.75f, kHalfWidth - 0.1f}) {
     addBox(wood, {}, {x - 0.06f, 0, kPergolaFront - 0.05f}, {x + 0.06f, kBeamHeight, kPergolaFront + 0.05f},
            kTop | kBottom);
   }
@@ -264,10 +264,10 @@ void buildKinds(GlbBuilder& builder, std::size_t lights, std::uint64_t seed) {
   terrace.addStructure();
   terrace.addFurniture();
   const Shares shares = shareOut(lights);
-  if (shares.directional > 0) builder.addDirectional(kSunAxis, Vec3(1.0f, 0.55f, 0.25f) * 0.9f);
-  terrace.addPoints(shares.points, 30);
-  terrace.addSpots(shares.spots, 16);
-  terrace.addTriangles(shares.triangles, 26);
+  if (shares.directional > 0) builder.addDirectional(kSunAxis, Vec3(1.0f, 0.55f, 0.25f) * 1.1f);
+  terrace.addPoints(shares.points, 80);
+  terrace.addSpots(shares.spots, 70);
+  terrace.addTriangles(shares.triangles, 50);
   builder.setEnvironment(duskSky());
 }
 

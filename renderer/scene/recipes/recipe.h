@@ -28,8 +28,8 @@ inline constexpr std::array kRecipes{
 
 inline constexpr std::size_t kMaxRecipeLights = 10'000'000;
 
-/// The bytes of a .glb with exactly `lights` lights (environment tiles are not counted: a recipe's environment is a
-/// picture beside it or none). The same arguments give the same bytes. \pre lights ≤ kMaxRecipeLights
+/// The bytes of a .glb with exactly `lights` lights (an environment, which `kinds`
+/// has inside of its file, is not counted). The same arguments give the same bytes. \pre lights ≤ kMaxRecipeLights
 std::vector<std::byte> generateRecipe(Recipe recipe, std::size_t lights, std::uint64_t seed);
 
 }  // namespace cellcut

@@ -32,6 +32,10 @@ struct RoomSpace {
   Vec3 centre() const { return 0.5f * (lower + upper); }
 };
 
+inline constexpr float kCornerLamp = 0.3f;  ///< distance of a floor lamp from both walls of its corner, metres
+/// The two corners at the back of a room, on the floor, which furniture leaves free for lamps.
+std::array<Vec3, 2> lampCorners(const RoomSpace& room);
+
 enum class Clutter : std::uint8_t { kFull, kSparse };
 
 /// Furniture, without lights.

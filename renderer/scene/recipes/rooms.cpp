@@ -8,18 +8,24 @@ namespace cellcut {
 
 namespace {
 
-constexpr float kStorey = 3.4f;
+// All lengths of the shell are multiples of 2⁻⁶ m, so that sums of them are exact and the two sides of a wall meet
+// without a crack, however they are computed.
+constexpr float kStorey = 3.375f;
 constexpr float kCeiling = 3.0f;
-constexpr float kHalfWall = 0.1f;
-constexpr float kSlab = 0.2f;  ///< how far a storey's front reaches below its floor
+constexpr float kHalfWall = 0.125f;
+constexpr float kSlab = 0.1875f;  ///< how far a storey's front reaches below its floor
 constexpr std::size_t kLightsPerRoom = 60;
 constexpr std::size_t kMostRooms = 17'000;  ///< above a million lights rooms get more lamps, not their number larger
 constexpr std::size_t kFullyFurnishedRooms = 1500;
 constexpr std::size_t kRoomsWithPunctualLights = 5000;
-constexpr float kRadiance = 0.25f;  ///< of a room of mean brightness, W/(m² sr)
+constexpr float kRadiance = 0.3f;  ///< of a room of mean brightness, W/(m² sr)
 
 /// Independent decisions of one seed.
 enum Stream : std::uint64_t { kWidths, kDepths, kThroughDoor, kSideDoor, kThroughLine, kSideLine, kInterior, kDecor };
+
+float snapped(float length) {
+  return std::round(length * 64) / 64;
+}
 
 struct RoomIndex {
   int column, row, storey;  ///< row 0 is the open front, further rows lie towards −z
@@ -66,21 +72,21 @@ Plan::Plan(std::size_t lights, std::uint64_t seed) : seed_(seed) {
   const int columns = std::max(3, static_cast<int>(std::ceil(rooms / (storeys_ * rows))));
   Rng widths(hashOf(seed, std::uint64_t{kWidths}));
   x_.push_back(0);
-  for (int i = 0; i < columns; ++i) x_.push_back(x_.back() + widths.uniform(5.0f, 6.8f));
-  const float middle = 0.5f * x_.back();
+  for (int i = 0; i < columns; ++i) x_.push_back(x_.back() + snapped(widths.uniform(5.0f, 6.8f)));
+  const float middle = snapped(0.5f * x_.back());
   for (float& x : x_) x -= middle;
   Rng depths(hashOf(seed, std::uint64_t{kDepths}));
   z_.push_back(0);
-  for (int i = 0; i < rows; ++i) z_.push_back(z_.back() - depths.uniform(5.0f, 6.8f));
+  for (int i = 0; i < rows; ++i) z_.push_back(z_.back() - snapped(depths.uniform(5.0f, 6.8f)));
 }
 
 std::optional<Doorway> Plan::door(Stream exists, Stream line, RoomIndex at, RoomIndex lineOf, float middle,
                                   bool always) const {
   Rng own = rng(exists, at);
   if (own.uniform() > 0.8f && !always) return std::nullopt;
-  const float halfWidth = 0.5f * own.uniform(0.95f, 2.1f);
-  const float height = own.uniform(2.1f, 2.45f);
-  const float centre = middle + rng(line, lineOf).uniform(-0.3f, 0.3f);  // one line: doors behind each other
+  const float halfWidth = snapped(0.5f * own.uniform(0.95f, 2.1f));
+  const float height = snapped(own.uniform(2.1f, 2.45f));
+  const float centre = snapped(middle + rng(line, lineOf).uniform(-0.3f, 0.3f));  // one line: doors behind each other
   return Doorway{centre - halfWidth, centre + halfWidth, height};
 }
 
@@ -247,15 +253,15 @@ void addCameras(GlbBuilder& builder, const Plan& plan) {
   const RoomSpace room = plan.room(at);
   const float eye = room.lower.y + 1.5f;
   const Doorway behind = plan.doorBehind(at).value();
-  const Vec3 through(0.5f * (behind.from + behind.to), room.lower.y + 1.35f, room.lower.z);
+  const Vec3 through(0.5f * (behind.from + behind.to), room.lower.y + 1.25f, room.lower.z);
   builder.addCamera("inside", {room.lower.x + 0.62f * (room.upper.x - room.lower.x), eye, -0.2f}, through, 1.0f);
   const RoomSpace next = plan.room({at.column, 1, at.storey});
   builder.addCamera("through", {next.lower.x + 0.5f, eye, next.upper.z - 0.5f},
                     {next.upper.x, room.lower.y + 1.2f, 0.5f * (next.lower.z + next.upper.z)}, 1.0f);
   const float width = plan.x(plan.columns()) - plan.x(0);
   const float height = kStorey * static_cast<float>(plan.storeys());
-  const float distance = std::max(0.95f * width, 1.7f * height);
-  builder.addCamera("overview", {-0.22f * width, 0.5f * height + 0.08f * distance, distance}, {0, 0.47f * height, 0},
+  const float distance = std::max(0.86f * width, 1.7f * height);
+  builder.addCamera("overview", {-0.07f * width, 0.5f * height + 0.08f * distance, distance}, {0, 0.47f * height, 0},
                     0.7f);
 }
 
@@ -276,7 +282,7 @@ void buildRooms(GlbBuilder& builder, std::size_t lights, std::uint64_t seed) {
     const std::optional<Vec2> camera = i == 0 ? std::optional(Vec2(room.centre().x, room.upper.z)) : std::nullopt;
     furnishRoom(palette, room, clutter, camera, rng);
     const std::size_t share = lights / rooms.size() + (i < lights % rooms.size() ? 1 : 0);
-    const float brightness = i == 0 ? 1.0f : std::pow(10.0f, rng.uniform(-0.6f, 0.3f));
+    const float brightness = i == 0 ? 1.0f : std::pow(10.0f, rng.uniform(-0.4f, 0.4f));
     if (share > 0) lightRoom(palette, room, share, kRadiance * brightness, i < kRoomsWithPunctualLights, rng);
   }
 }

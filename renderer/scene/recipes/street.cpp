@@ -187,10 +187,17 @@ void Street::addShopLights(const House& house) {
   Surface& frame = palette_.flat(Paint::kWalnut);
   addBox(frame, shop, {-windowWidth / 2 - 0.1f, 0, -0.14f}, {windowWidth / 2 + 0.1f, 3.05f, 0}, kBack | kBottom);
   const bool open = rng_.uniform() < 0.6f && spend(2);
-  const float radiance = 2.2f * std::pow(10.0f, -1.2f * rng_.uniform());
-  addPane(open ? palette_.emitter(rng_.uniform() < 0.7f ? Tint::kSoft : Tint::kCool, radiance)
+  const float radiance = 1.4f * std::pow(10.0f, -1.2f * rng_.uniform());
+  addPane(open ? palette_.emitter(rng_.uniform() < 0.7f ? Tint::kWarm : Tint::kCool, radiance)
                : palette_.flat(Paint::kDarkGlass),
           shop, {-windowWidth / 2, 0.6f}, {windowWidth / 2, 2.8f}, 2);
+  constexpr float kInFront = 0.035f;  // of the pane, which does not glow into its bars
+  const int bars = static_cast<int>(windowWidth / 1.3f);
+  for (int i = 1; i < bars; ++i) {
+    const float x = windowWidth * (static_cast<float>(i) / static_cast<float>(bars) - 0.5f);
+    addBox(frame, shop, {x - 0.03f, 0.6f, kInFront}, {x + 0.03f, 2.8f, kInFront + 0.03f});
+  }
+  addBox(frame, shop, {-windowWidth / 2, 2.2f, kInFront}, {windowWidth / 2, 2.26f, kInFront + 0.025f});
   const Pose sign = shop.at({0, 3.4f, 0});
   const float half = 0.3f * windowWidth;
   addBox(palette_.flat(Paint::kBlackMetal), sign, {-half - 0.06f, -0.26f, -0.1f}, {half + 0.06f, 0.26f, 0.08f}, kBack);
@@ -223,8 +230,8 @@ void Street::addLampPosts() {
     ++lit;
     const Tint tint = rng_.uniform() < 0.8f ? Tint::kWarm : Tint::kNeutral;
     const float strength = rng_.uniform(0.5f, 1.6f);
-    builder_.addSpot(foot.point({1.55f, kHeight - 0.26f, 0}), {0, -1, 0}, palette_.intensity(tint, 95 * strength), 0.7f,
-                     1.35f);
+    builder_.addSpot(foot.point({1.55f, kHeight - 0.26f, 0}), {0, -1, 0}, palette_.intensity(tint, 190 * strength),
+                     0.7f, 1.35f);
     if (total_ >= 100 && spend(2)) {
       const float y = kHeight - 0.205f;
       addQuad(palette_.emitter(tint, 40 * strength), foot.point({1.25f, y, -0.1f}), foot.point({1.85f, y, -0.1f}),
@@ -315,7 +322,7 @@ void Street::build() {
   builder_.addCamera("balcony", {-5.9f, 6.5f, 2}, {2, 1.6f, -16}, 0.85f);
   builder_.addCamera("above", {26, 34, 22}, {-1, 2, -24}, 0.75f);
   if (spend(1))
-    builder_.addDirectional({0.45f, -1, -0.35f}, tintColor(Tint::kBlue) * 0.02f + tintColor(Tint::kCool) * 0.05f);
+    builder_.addDirectional({0.45f, -1, -0.35f}, tintColor(Tint::kBlue) * 0.04f + tintColor(Tint::kCool) * 0.10f);
   addGround();
   addLampPosts();
   addFestoons();

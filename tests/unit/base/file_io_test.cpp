@@ -3,7 +3,7 @@
 #include "tests/support/temporary_directory.h"
 
 #include <csignal>
-#include <cstring>
+#include <iterator>
 #include <string_view>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -15,7 +15,6 @@ namespace cellcut {
 namespace {
 
 namespace fs = std::filesystem;
-using test::TemporaryDirectory;
 
 std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span(text));
@@ -24,6 +23,10 @@ std::span<const std::byte> bytesOf(std::string_view text) {
 std::string contentOf(const fs::path& file) {
   const std::vector<std::byte> bytes = readFile(file, 1000);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::ptrdiff_t fileCount(const test::TemporaryDirectory& folder) {
+  return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
 }
 
 /// Files may not grow past a limit while it lives, as on a full disk.
@@ -46,65 +49,66 @@ class FileSizeLimit {
 };
 
 TEST(FileIo, WritesWhatItReads) {
-  const TemporaryDirectory directory;
-  writeFileAtomically(directory / "a", bytesOf("first"));
-  EXPECT_EQ(contentOf(directory / "a"), "first");
-  writeFileAtomically(directory / "a", bytesOf("2"));
-  EXPECT_EQ(contentOf(directory / "a"), "2");
-  EXPECT_EQ(directory.fileCount(), 1u);
+  const test::TemporaryDirectory folder;
+  writeFileAtomically(folder / "a", bytesOf("first"));
+  EXPECT_EQ(contentOf(folder / "a"), "first");
+  writeFileAtomically(folder / "a", bytesOf("2"));
+  EXPECT_EQ(contentOf(folder / "a"), "2");
+  EXPECT_EQ(fileCount(folder), 1);
 }
 
 TEST(FileIo, WritesAndReadsEmptyFiles) {
-  const TemporaryDirectory directory;
-  writeFileAtomically(directory / "a", {});
-  EXPECT_EQ(contentOf(directory / "a"), "");
+  const test::TemporaryDirectory folder;
+  writeFileAtomically(folder / "a", {});
+  EXPECT_EQ(contentOf(folder / "a"), "");
 }
 
 TEST(FileIo, RefusesToWriteIntoMissingDirectory) {
-  const TemporaryDirectory directory;
-  EXPECT_THROW(writeFileAtomically(directory / "missing" / "a", bytesOf("x")), InputError);
+  const test::TemporaryDirectory folder;
+  EXPECT_THROW(writeFileAtomically(folder / "missing" / "a", bytesOf("x")), InputError);
 }
 
 TEST(FileIo, RefusesToReplaceDirectory) {
-  const TemporaryDirectory directory;
-  fs::create_directory(directory / "a");
-  EXPECT_THROW(writeFileAtomically(directory / "a", bytesOf("x")), InputError);
-  EXPECT_EQ(directory.fileCount(), 1u);
+  const test::TemporaryDirectory folder;
+  fs::create_directory(folder / "a");
+  EXPECT_THROW(writeFileAtomically(folder / "a", bytesOf("x")), InputError);
+  EXPECT_EQ(fileCount(folder), 1);
 }
 
 TEST(FileIo, RefusesToWriteIntoReadOnlyDirectory) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
-  const TemporaryDirectory directory;
-  writeFileAtomically(directory / "a", bytesOf("old"));
-  fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_THROW(writeFileAtomically(directory / "a", bytesOf("new")), InputError);
-  EXPECT_EQ(contentOf(directory / "a"), "old");
+  const test::TemporaryDirectory folder;
+  writeFileAtomically(folder / "a", bytesOf("old"));
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THROW(writeFileAtomically(folder / "a", bytesOf("new")), InputError);
+  fs::permissions(folder.path(), fs::perms::owner_all);
+  EXPECT_EQ(contentOf(folder / "a"), "old");
 }
 
 TEST(FileIo, OldFileStaysWhenTheDiskIsFull) {
-  const TemporaryDirectory directory;
-  writeFileAtomically(directory / "a", bytesOf("old"));
+  const test::TemporaryDirectory folder;
+  writeFileAtomically(folder / "a", bytesOf("old"));
   const std::vector<std::byte> large(1 << 20);
   {
     const FileSizeLimit limit(1 << 16);
-    EXPECT_THROW(writeFileAtomically(directory / "a", large), InputError);
+    EXPECT_THROW(writeFileAtomically(folder / "a", large), InputError);
   }
-  EXPECT_EQ(contentOf(directory / "a"), "old");
-  EXPECT_EQ(directory.fileCount(), 1u) << "the half-written file is still there";
+  EXPECT_EQ(contentOf(folder / "a"), "old");
+  EXPECT_EQ(fileCount(folder), 1) << "the half-written file is still there";
 }
 
 TEST(FileIo, RefusesToReadWhatIsNoRegularFile) {
-  const TemporaryDirectory directory;
-  EXPECT_THROW(readFile(directory / "missing", 1000), InputError);
-  EXPECT_THROW(readFile(directory.path(), 1000), InputError);
+  const test::TemporaryDirectory folder;
+  EXPECT_THROW(readFile(folder / "missing", 1000), InputError);
+  EXPECT_THROW(readFile(folder.path(), 1000), InputError);
   EXPECT_THROW(readFile("/dev/zero", 1000), InputError);
 }
 
 TEST(FileIo, RefusesToReadLargerFileThanAllowed) {
-  const TemporaryDirectory directory;
-  writeFileAtomically(directory / "a", bytesOf("12345"));
-  EXPECT_EQ(readFile(directory / "a", 5).size(), 5u);
-  EXPECT_THROW(readFile(directory / "a", 4), InputError);
+  const test::TemporaryDirectory folder;
+  writeFileAtomically(folder / "a", bytesOf("12345"));
+  EXPECT_EQ(readFile(folder / "a", 5).size(), 5u);
+  EXPECT_THROW(readFile(folder / "a", 4), InputError);
 }
 
 TEST(FileIo, ErrorsNameTheFile) {

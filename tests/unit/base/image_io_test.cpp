@@ -14,7 +14,6 @@
 namespace cellcut {
 namespace {
 
-using test::TemporaryDirectory;
 using testing::HasSubstr;
 
 std::vector<std::byte> bytesOf(std::string_view text) {
@@ -53,28 +52,28 @@ std::string messageOf(std::span<const std::byte> encoded) {
 }
 
 TEST(ImageIo, PfmKeepsEveryBit) {
-  const TemporaryDirectory directory;
+  const test::TemporaryDirectory folder;
   ImageRgb image = noise(5, 3);
   image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
-  writePfm(directory / "a.pfm", image);
-  expectSame(readImage(directory / "a.pfm"), image);
+  writePfm(folder / "a.pfm", image);
+  expectSame(readImage(folder / "a.pfm"), image);
 }
 
 TEST(ImageIo, ExrKeepsEveryBit) {
-  const TemporaryDirectory directory;
+  const test::TemporaryDirectory folder;
   ImageRgb image = noise(37, 21);
   image.at(2, 1) = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -0.0f};
-  writeExr(directory / "a.exr", oneLayer(image));
-  expectSame(readImage(directory / "a.exr"), image);
+  writeExr(folder / "a.exr", oneLayer(image));
+  expectSame(readImage(folder / "a.exr"), image);
 }
 
 TEST(ImageIo, PngHasToneMappedPixels) {
-  const TemporaryDirectory directory;
+  const test::TemporaryDirectory folder;
   ImageRgb image(2, 2);
   image.at(1, 0) = {0.1f, 0.2f, 0.4f};
   image.at(0, 1) = {std::numeric_limits<float>::quiet_NaN(), 0.4f, -1};
-  writePng(directory / "a.png", image, 2);
-  const ImageRgba8 read = decodeImage8(readFile(directory / "a.png", 1 << 20), "a.png");
+  writePng(folder / "a.png", image, 2);
+  const ImageRgba8 read = decodeImage8(readFile(folder / "a.png", 1 << 20), "a.png");
   ASSERT_EQ(read.width(), 2);
   ASSERT_EQ(read.height(), 2);
   const Vec3 shown = toneMap({0.2f, 0.4f, 0.8f});
@@ -108,6 +107,55 @@ TEST(ImageIo, Png8CutOffAnywhereIsRefused) {
   for (std::size_t size = 0; size < whole.size() - kEndChunk; ++size) {
     EXPECT_THROW(decodeImage8(std::span(whole).first(size), "cut"), InputError) << size;
   }
+}
+
+TEST(ImageIo, RandomlyDamagedPng8IsReadOrRefused) {
+  ImageRgba8 image(24, 24);
+  Rng rng(11);
+  for (auto& pixel : image) pixel = {rng.below(256), rng.below(3), 7, 255};
+  const std::vector<std::byte> whole = encodePng(image);
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<std::byte> png = whole;
+    png[rng.below(static_cast<std::uint32_t>(png.size()))] = static_cast<std::byte>(rng.below(256));
+    try {
+      decodeImage8(png, "damaged");
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);  // else the damage missed everything that matters
+}
+
+/// A grey baseline JPEG of 8 × 8 pixels, each of them 128: one DC and one AC code, no difference and no coefficients.
+std::vector<std::byte> greyJpeg() {
+  std::vector<int> bytes{0xff, 0xd8, 0xff, 0xdb, 0, 67, 0};  // quantisation
+  bytes.insert(bytes.end(), 64, 1);
+  const std::vector<int> frame{0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0};       // 8 bits, 8 × 8, one component
+  const std::vector<int> scan{0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0x3f, 0xff, 0xd9};  // two zero bits, then ones
+  bytes.insert(bytes.end(), frame.begin(), frame.end());
+  for (const int table : {0x00, 0x10}) {  // one code of one bit, for the symbol 0
+    const std::vector<int> huffman{0xff, 0xc4, 0, 20, table, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    bytes.insert(bytes.end(), huffman.begin(), huffman.end());
+  }
+  bytes.insert(bytes.end(), scan.begin(), scan.end());
+  std::vector<std::byte> file;
+  for (const int byte : bytes) file.push_back(static_cast<std::byte>(byte));
+  return file;
+}
+
+TEST(ImageIo, ReadsJpeg) {
+  const ImageRgba8 image = decodeImage8(greyJpeg(), "grey");
+  ASSERT_EQ(image.width(), 8);
+  ASSERT_EQ(image.height(), 8);
+  for (const auto& pixel : image) EXPECT_EQ(glm::ivec4(pixel), glm::ivec4(128, 128, 128, 255));
+}
+
+TEST(ImageIo, RefusesJpegSizeThatItsBytesCannotHold) {
+  std::vector<std::byte> jpeg = greyJpeg();
+  jpeg[7 + 64 + 5] = std::byte{0xff};  // height
+  jpeg[7 + 64 + 7] = std::byte{0xff};  // width
+  EXPECT_THROW(decodeImage8(jpeg, "giant"), InputError);
 }
 
 TEST(ImageIo, Png8RefusesSizeThatItsBytesCannotHold) {

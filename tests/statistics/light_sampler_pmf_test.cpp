@@ -1,0 +1,120 @@
+// Proofs 1 and 2 of every strategy: its probabilities are probabilities, they are those it samples with, and no light that
+// contributes is left out.
+#include "renderer/base/rng.h"
+#include "tests/support/depth.h"
+#include "tests/support/reference.h"
+#include "tests/support/shading_points.h"
+#include "tests/support/statistics.h"
+#include "tests/support/strategies.h"
+
+#include <numeric>
+
+namespace cellcut::test {
+namespace {
+
+constexpr double kLastDouble = 1 - 0x1p-53;
+/// The largest that 24 bits make.
+constexpr double kLastFloat = 1 - 0x1p-24;
+
+std::vector<double> allPmfs(const LightSampler& sampler, const Lights& lights, const ShadingPoint& point) {
+  std::vector<double> pmf(lights.size());
+  for (std::size_t i = 0; i < pmf.size(); ++i) pmf[i] = sampler.pmf(point, static_cast<LightId>(i));
+  return pmf;
+}
+
+/// Quadrature cells per side of a triangle or texel: enough to see whether light arrives at all.
+constexpr int kAnyLight = 8;
+
+class LightSamplerPmf : public StrategyAndLights {
+ protected:
+  /// \param check  called with lights, sampler and a point of the scene, for each number of lights
+  void forEachPoint(std::initializer_list<int> lightCounts, const auto& check) const {
+    for (const int count : lightCounts) {
+      SCOPED_TRACE(std::to_string(count) + " lights");
+      const Scene scene = stage(mix(), count, seed());
+      const Lights lights(scene);
+      const auto sampler = makeLightSampler(strategy(), lights);
+      for (const ShadingPoint& point : pathVertices(scene, byDepth(6, 64), seed())) check(lights, *sampler, point);
+    }
+  }
+};
+
+TEST_P(LightSamplerPmf, SumsToOneOrNoLightReachesThePoint) {
+  forEachPoint({1, 2, 33, 1024}, [](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
+    const std::vector<double> pmf = allPmfs(sampler, lights, point);
+    const double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
+    const bool some = sampler.sample(point, 0.5).has_value();
+    // Each of at most 1024 probabilities is rounded to a float: 6e-8 of it.
+    EXPECT_NEAR(sum, some ? 1 : 0, 1e-5);
+  });
+}
+
+TEST_P(LightSamplerPmf, IsTheProbabilityThatASampleCarries) {
+  forEachPoint({1, 2, 33}, [&](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
+    Rng rng(seed());
+    std::vector<double> numbers{0, 0x1p-53, 0x1p-24, kLastFloat, kLastDouble};
+    for (std::size_t i = 0; i < sampleShare(200); ++i) numbers.push_back(rng.uniformDouble());
+    for (const double u : numbers) {
+      const auto sample = sampler.sample(point, u);
+      if (!sample) continue;
+      ASSERT_LT(static_cast<std::size_t>(sample->light), lights.size());
+      ASSERT_GT(sample->pmf, 0) << "u = " << u;
+      const float queried = sampler.pmf(point, sample->light);
+      // A few roundings in a different order of sums.
+      ASSERT_NEAR(queried / sample->pmf, 1, 1e-5) << "u = " << u;
+    }
+  });
+}
+
+TEST_P(LightSamplerPmf, IsPositiveForEveryLightThatContributes) {
+  forEachPoint({1, 2, 33, 1024}, [](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
+    const std::vector<double> pmf = allPmfs(sampler, lights, point);
+    for (std::size_t i = 0; i < pmf.size(); ++i) {
+      ASSERT_GE(pmf[i], 0);
+      if (pmf[i] > 0) continue;
+      const glm::dvec3 contribution = referenceIrradiance(lights, static_cast<LightId>(i), point.p, point.n, kAnyLight);
+      ASSERT_EQ(luminance(contribution), 0) << "light " << i << " of " << lights.size();
+    }
+  });
+}
+
+TEST_P(LightSamplerPmf, GivesNoSampleOnlyWhereNoLightContributes) {
+  forEachPoint({1, 2, 33}, [](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
+    if (sampler.sample(point, 0.5)) return;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      ASSERT_EQ(luminance(referenceIrradiance(lights, static_cast<LightId>(i), point.p, point.n, kAnyLight)), 0);
+    }
+  });
+}
+
+TEST_P(LightSamplerPmf, AgreesWithTheCountsOfSamples) {
+  const Scene scene = stage(mix(), 33, seed());
+  const Lights lights(scene);
+  const auto sampler = makeLightSampler(strategy(), lights);
+  const std::vector<ShadingPoint> points = pathVertices(scene, byDepth(4, 64), seed());
+  const std::size_t n = sampleShare(byDepth(100'000, std::max<std::size_t>(1'000'000, 100 * lights.size())));
+  Rng rng(hashOf(seed(), 2));
+  for (const ShadingPoint& point : points) {
+    const std::vector<double> pmf = allPmfs(*sampler, lights, point);
+    std::vector<std::uint64_t> counts(pmf.size());
+    std::size_t drawn = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (const auto sample = sampler->sample(point, rng.uniformDouble())) {
+        ++counts[static_cast<std::size_t>(sample->light)];
+        ++drawn;
+      }
+    }
+    // Σ pmf is 1 or nothing is ever drawn: there is no third way.
+    ASSERT_TRUE(drawn == n || drawn == 0);
+    if (drawn == 0) continue;
+    const ChiSquare test = chiSquareTest(counts, pmf);
+    EXPECT_EQ(test.impossible, 0u);
+    EXPECT_GT(test.p, sidak(kAlpha, points.size()))
+        << "chi square " << test.statistic << " with " << test.degreesOfFreedom << " degrees of freedom";
+  }
+}
+
+CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(LightSamplerPmf);
+
+}  // namespace
+}  // namespace cellcut::test

@@ -1,0 +1,153 @@
+// Proof 3 of every strategy at single points: the estimator's mean is the sum over all lights, found by quadrature in double.
+// Proof 5: it stays the same when the same light is described in another way.
+#include "tests/support/depth.h"
+#include "tests/support/estimator.h"
+#include "tests/support/strategies.h"
+
+namespace cellcut::test {
+namespace {
+
+/// Fewer hits than this, and a mean over its own standard error is no normal variable.
+constexpr std::uint64_t kMinHits = 1000;
+
+/// z-tests of one family of points: each alone, and the sum of their squares.
+class PointTests {
+ public:
+  explicit PointTests(std::size_t points) : limit_(criticalZ(points)) {}
+
+  void add(const Moments& estimate, double reference) {
+    if (reference == 0) {
+      EXPECT_EQ(estimate.mean(), 0);
+      return;
+    }
+    if (estimate.nonZero() < kMinHits) return;
+    const double error = kReferenceError * reference;
+    const double z = zScore(estimate.mean(), estimate.meanVariance(), reference, error * error);
+    EXPECT_LT(std::abs(z), limit_) << estimate.mean() << " against " << reference;
+    sum_ += z * z;
+    ++count_;
+  }
+  void finish(std::size_t atLeast) const {
+    EXPECT_GE(count_, atLeast) << "points with enough hits";
+    EXPECT_GT(chiSquareTail(sum_, static_cast<double>(count_)), 1e-3) << "sum of squares " << sum_ << " of " << count_;
+  }
+
+ private:
+  double limit_;
+  double sum_ = 0;
+  std::size_t count_ = 0;
+};
+
+class UnbiasedAtPoints : public StrategyAndLights {
+ protected:
+  std::vector<Receiver> receivers() const { return randomReceivers(byDepth(4, 64), seed()); }
+  static std::size_t samples() { return byDepth(100'000, 65'536); }
+
+  /// Direct light at all receivers of a scene against that of another description of it.
+  void expectReferenceOf(const Scene& scene, const Scene& referenceScene, const std::vector<Receiver>& receivers) const {
+    const PointEstimator estimator(scene, strategy());
+    PointTests tests(receivers.size());
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      tests.add(estimator.reflected(receivers[i], samples(), hashOf(seed(), i)), referenceReflected(referenceScene, receivers[i]));
+    }
+    // Some receivers turn their back on the few lights of a set.
+    tests.finish(receivers.size() / 2);
+  }
+};
+
+TEST_P(UnbiasedAtPoints, MeanIsTheSumOverAllLights) {
+  Scene scene;
+  addFacets(scene, receivers());
+  addLights(scene, mix(), 33, seed());
+  finish(scene);
+  expectReferenceOf(scene, scene, receivers());
+}
+
+TEST_P(UnbiasedAtPoints, OrderOfLightsDoesNotMatter) {
+  Scene scene;
+  addFacets(scene, receivers());
+  addLights(scene, mix(), 33, seed());
+  finish(scene);
+  Scene reversed = scene;
+  std::reverse(reversed.pointLights.begin(), reversed.pointLights.end());
+  std::reverse(reversed.spotLights.begin(), reversed.spotLights.end());
+  std::reverse(reversed.directionalLights.begin(), reversed.directionalLights.end());
+  std::reverse(reversed.meshes.begin(), reversed.meshes.end());
+  for (Mesh& mesh : reversed.meshes) std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+  expectReferenceOf(reversed, scene, receivers());
+}
+
+/// Each light as `copies` at the same place with a part of its power.
+Scene withCoincidentLights(const Scene& scene, int copies) {
+  Scene result = scene;
+  const auto repeat = [&](auto& lights, auto part) {
+    auto all = lights;
+    all.clear();
+    for (const auto& light : lights) {
+      for (int i = 0; i < copies; ++i) part(all.emplace_back(light));
+    }
+    lights = all;
+  };
+  const float share = 1.0f / static_cast<float>(copies);
+  repeat(result.pointLights, [&](PointLight& light) { light.intensity *= share; });
+  repeat(result.spotLights, [&](SpotLight& light) { light.intensity *= share; });
+  repeat(result.directionalLights, [&](DirectionalLight& light) { light.irradiance *= share; });
+  return result;
+}
+
+TEST_P(UnbiasedAtPoints, CoincidentLightsAddUp) {
+  Scene scene;
+  addFacets(scene, receivers());
+  addLights(scene, mix(), 10, seed());
+  finish(scene);
+  expectReferenceOf(withCoincidentLights(scene, 5), scene, receivers());
+}
+
+CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(UnbiasedAtPoints);
+
+class QuadLight : public testing::TestWithParam<StrategyName> {};
+
+TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
+  const std::vector<Receiver> receivers = randomReceivers(byDepth(4, 64), 5);
+  const auto quad = [&](int columns, int rows) {
+    Scene scene;
+    addFacets(scene, receivers);
+    // Ends 0.7 above the origin, so that receivers see it from all sides, some as almost a hemisphere.
+    addQuad(scene, addMaterial(scene, emitter({3, 2, 1}, true)), {-1, 0.7f, -1}, {2.5f, 0, 0}, {0, 0, 2.2f}, columns, rows);
+    finish(scene);
+    return scene;
+  };
+  const Scene fine = quad(16, 16);
+  // 2, 32 and 10,000 triangles; a strategy of O(N) cannot have the last on every change.
+  for (const auto& [columns, rows] : {std::pair(1, 1), std::pair(4, 4), std::pair(static_cast<int>(byDepth(8, 100)), 50)}) {
+    SCOPED_TRACE(std::to_string(2 * columns * rows) + " triangles");
+    const Scene scene = quad(columns, rows);
+    const PointEstimator estimator(scene, GetParam().strategy);
+    PointTests tests(3 * receivers.size());
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      const std::size_t samples = byDepth(columns * rows > 100 ? 10'000 : 100'000, 65'536);
+      tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)), referenceReflected(fine, receivers[i]));
+    }
+    tests.finish(receivers.size() / 2);
+  }
+}
+
+TEST_P(QuadLight, CoversTheHemisphereOfAPointCloseToIt) {
+  // Too close for sampling the light: MIS leaves it to the BSDF. White facet under a sky of radiance 1: all but the edges of a
+  // quad 10⁴ times as wide as it is far, (10⁻⁴)².
+  Scene scene;
+  addFacets(scene, {{Vec3(0), {0, 1, 0}}});
+  addQuad(scene, addMaterial(scene, emitter(Vec3(1), false)), {-5, 1e-3f, -5}, {10, 0, 0}, {0, 0, 10});
+  finish(scene);
+  const PointEstimator estimator(scene, GetParam().strategy);
+  PointTests tests(1);
+  // The camera ray starts beyond the quad otherwise.
+  tests.add(estimator.reflected({Vec3(0), {0, 1, 0}}, sampleShare(100'000), 1, 1e-4f), 1);
+  tests.finish(1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, QuadLight, testing::ValuesIn(kStrategies),
+                         [](const auto& info) { return strategyName(info.param.name); });
+
+}  // namespace
+}  // namespace cellcut::test

@@ -1,0 +1,85 @@
+#include "tests/support/images.h"
+
+#include "renderer/scene/camera.h"
+#include "tests/support/reference.h"
+#include "tests/support/statistics.h"
+
+#include <sstream>
+
+namespace cellcut::test {
+
+Image<Estimate> estimatesOf(const Film& film) {
+  const ImageRgb mean = film.mean(), error = film.standardError();
+  Image<Estimate> result(film.width(), film.height());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    // The lights of the tests colour all channels by nearly one pattern, so the channels' errors add up and not their squares: the
+    // bound that holds for any correlation.
+    const double sigma = luminance(glm::dvec3(error[i]));
+    result[i] = {luminance(glm::dvec3(mean[i])), sigma * sigma};
+  }
+  return result;
+}
+
+Image<Estimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes) {
+  settings.sampling = PixelSampling::kIndependent;
+  settings.auxiliary = false;
+  Renderer renderer(scene, settings);
+  const std::atomic<bool> cancel{false};
+  for (std::size_t i = 0; i < passes; ++i) renderer.renderPass(cancel);
+  return estimatesOf(renderer.film());
+}
+
+Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes) {
+  const Accel accel(scene);
+  const ReferenceTracer tracer(scene, accel);
+  Image<Estimate> result(settings.width, settings.height);
+  for (int y = 0; y < settings.height; ++y) {
+    for (int x = 0; x < settings.width; ++x) {
+      Rng random(hashOf(settings.seed, x, y, 77));
+      Moments moments;
+      for (std::size_t i = 0; i < passes; ++i) {
+        const Vec2 film(static_cast<float>(x) + random.uniform(), static_cast<float>(y) + random.uniform());
+        const Ray ray = cameraRay(scene.cameras[settings.camera], film, {settings.width, settings.height});
+        moments.add(static_cast<double>(luminance(tracer.trace(ray, settings.maxDepth, random))));
+      }
+      result.at(x, y) = {moments.mean(), moments.meanVariance()};
+    }
+  }
+  return result;
+}
+
+std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide) {
+  const int width = image.width() / tilesPerSide, height = image.height() / tilesPerSide;
+  const double pixels = static_cast<double>(width) * height;
+  std::vector<Estimate> tiles(static_cast<std::size_t>(tilesPerSide) * static_cast<std::size_t>(tilesPerSide));
+  for (int y = 0; y < height * tilesPerSide; ++y) {
+    for (int x = 0; x < width * tilesPerSide; ++x) {
+      Estimate& tile = tiles[static_cast<std::size_t>((y / height) * tilesPerSide + x / width)];
+      tile.mean += image.at(x, y).mean / pixels;
+      tile.variance += image.at(x, y).variance / (pixels * pixels);
+    }
+  }
+  return tiles;
+}
+
+std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons) {
+  constexpr int kTiles = 8;
+  std::ostringstream text;
+  // A dark tile that lives of a few bright paths is no normal variable: mean and error go together, and |z| is too large too often.
+  // 400 equally bright paths would give this relative error; the picture as a whole has thousands.
+  const auto fewHits = [](const Estimate& e) { return e.mean * e.mean < 400 * e.variance; };
+  const auto compare = [&](const std::vector<Estimate>& as, const std::vector<Estimate>& bs, const char* what) {
+    const double limit = criticalZ(as.size() * comparisons);
+    for (std::size_t i = 0; i < as.size(); ++i) {
+      if (as.size() > 1 && (fewHits(as[i]) || fewHits(bs[i]))) continue;
+      const double z = zScore(as[i].mean, as[i].variance, bs[i].mean, bs[i].variance);
+      if (std::abs(z) <= limit) continue;
+      text << what << " " << i << ": " << as[i].mean << " against " << bs[i].mean << ", z = " << z << " beyond " << limit << "\n";
+    }
+  };
+  compare(tilesOf(a, kTiles), tilesOf(b, kTiles), "tile");
+  compare(tilesOf(a, 1), tilesOf(b, 1), "picture");
+  return text.str();
+}
+
+}  // namespace cellcut::test

@@ -1,0 +1,34 @@
+/// \file images.h
+/// Pictures as estimates: their tiles, their errors, and whether two agree.
+#pragma once
+
+#include "renderer/trace/renderer.h"
+
+#include <string>
+#include <vector>
+
+namespace cellcut::test {
+
+/// Luminance of a part of a picture, with the variance of that number.
+struct Estimate {
+  double mean = 0;
+  double variance = 0;
+};
+
+/// Luminance per pixel and the variance of each pixel's mean.
+Image<Estimate> estimatesOf(const Film& film);
+
+/// `passes` passes of a scene with independent random numbers.
+Image<Estimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes);
+/// The same picture by ReferenceTracer.
+Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes);
+
+/// Means over a grid of tiles.
+std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide);
+
+/// Compares pictures by tiles, as far as these are made of enough paths, and as a whole.
+/// \param comparisons  how many pairs are compared in the test, this one included
+/// \return "" if no tile of the 8 by 8 and not the mean differs by more than chance, else what differs and by how much
+std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons);
+
+}  // namespace cellcut::test

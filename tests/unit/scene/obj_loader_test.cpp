@@ -1,0 +1,119 @@
+#include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
+#include "renderer/scene/load_scene.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/temporary_directory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace cellcut {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr float kRounding = 1e-6f;
+
+class ObjLoader : public testing::Test {
+ protected:
+  Scene load(const std::string& text) { return loadScene(test::writeFile(folder / "test.obj", text)); }
+  test::TemporaryDirectory folder;
+};
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST_F(ObjLoader, ReadsPolygonsAndBothKindsOfIndices) {
+  const Scene scene = load("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf -4 -3 -2\n");
+  EXPECT_EQ(scene.triangleCount(), 3u);
+  for (const Triangle& t : scene.meshes[0].triangles) {
+    const auto& p = scene.meshes[0].positions;
+    EXPECT_GT(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]).z, 0);
+  }
+  EXPECT_TRUE(scene.meshes[0].normals.empty());
+}
+
+TEST_F(ObjLoader, RefusesIndicesThatDoNotExist) {
+  for (const char* face : {"f 1 2 4", "f 1 2 0", "f -1 -2 -4", "f 1 2 99999999999", "f 1/1 2/1 3/1", "f 1//2 2//1 3//1",
+                           "f a b c", "f 1 2 3 4 5 6 7"}) {
+    EXPECT_THROW(load(kTriangle + face + "\n"), InputError) << face;
+  }
+}
+
+TEST_F(ObjLoader, RefusesFacesOfThousandsOfCorners) {
+  std::string face = "f";
+  for (int i = 0; i < 5000; ++i) face += " 1";
+  EXPECT_THROW(load(kTriangle + face + "\n"), InputError);
+}
+
+TEST_F(ObjLoader, ReadsMaterialsRoughly) {
+  test::writeFile(folder / "m.mtl",
+                  "newmtl wood\nKd 0.5 0.25 0.125\nKs 0 0 0\nmap_Kd maps\\wood.png\n"
+                  "newmtl lamp\nKd 0 0 0\nKe 10 20 30\n"
+                  "newmtl glaze\nKd 1 1 1\nKs 0.5 0.5 0.5\nNs 98\nd 0.5\n");
+  std::filesystem::create_directory(folder / "maps");
+  test::writeFile(folder / "maps/wood.png", encodePng(ImageRgba8(2, 2, {9, 8, 7, 255})));
+  const Scene scene =
+      load("mtllib m.mtl\n" + kTriangle +
+           "vt 0 0\nvt 1 0\nvt 0 1\nusemtl wood\nf 1/1 2/2 3/3\nusemtl lamp\nf 1 2 3\nusemtl glaze\nf 1 2 3\n");
+  ASSERT_EQ(scene.materials.size(), 3u);
+  EXPECT_TRUE(scene.warnings.empty());
+  const Material& wood = scene.materials[0];
+  EXPECT_EQ(wood.baseColor, Vec4(0.5f, 0.25f, 0.125f, 1));
+  EXPECT_EQ(wood.specular, 0);
+  EXPECT_EQ(wood.roughness, 1);
+  EXPECT_TRUE(wood.doubleSided);
+  ASSERT_TRUE(wood.baseColorTexture.texture);
+  EXPECT_EQ(scene.texels.at(0).at(0, 0), (glm::vec<4, std::uint8_t>(9, 8, 7, 255)));
+  const Material& lamp = scene.materials[1];
+  EXPECT_EQ(lamp.emission, Vec3(10, 20, 30));
+  EXPECT_FALSE(lamp.doubleSided);
+  const Material& glaze = scene.materials[2];
+  EXPECT_EQ(glaze.specular, 0.5f);
+  EXPECT_NEAR(glaze.roughness, std::sqrt(std::sqrt(0.02f)), kRounding);
+  EXPECT_EQ(glaze.alphaMode, AlphaMode::kBlend);
+  EXPECT_EQ(glaze.baseColor.w, 0.5f);
+  ASSERT_EQ(scene.meshes.size(), 3u);
+  EXPECT_EQ(scene.meshes[0].texCoords[0][0], Vec2(0, 1));  // OBJ counts v from the bottom
+}
+
+TEST_F(ObjLoader, MissingLibrariesPicturesAndMaterialsAreWarnings) {
+  test::writeFile(folder / "m.mtl", "newmtl a\nmap_Kd gone.png\n");
+  const Scene scene = load("mtllib gone.mtl\nmtllib m.mtl\n" + kTriangle + "usemtl b\nf 1 2 3\n");
+  EXPECT_EQ(scene.triangleCount(), 1u);
+  EXPECT_THAT(scene.warnings,
+              testing::UnorderedElementsAre(HasSubstr("gone.mtl"), HasSubstr("gone.png"), HasSubstr("material b")));
+}
+
+TEST_F(ObjLoader, RefusesReferencesOutOfTheFolder) {
+  EXPECT_THROW(load("mtllib ../m.mtl\n" + kTriangle), InputError);
+  EXPECT_THROW(load("mtllib /etc/passwd\n" + kTriangle), InputError);
+  test::writeFile(folder / "m.mtl", "newmtl a\nmap_Ke ..\\secret.png\n");
+  EXPECT_THROW(load("mtllib m.mtl\n" + kTriangle), InputError);
+}
+
+TEST_F(ObjLoader, KeepsDigitsFarFromTheOrigin) {
+  const Scene scene = load("v 1000000.25 0 0\nv 1000001.5 0 0\nv 1000000.25 1.125 0\nf 1 2 3\n");
+  EXPECT_EQ(scene.bounds.upper.x - scene.bounds.lower.x, 1.25f);
+  EXPECT_EQ(scene.origin.x, 1000000.875);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(ObjLoader, NormalsCountOnlyWhereEveryCornerHasOne) {
+  const Scene scene = load(kTriangle + "vn 0 0 1\nvn 0 1 1\nf 1//1 2//1 3//2\nf 1//1 2 3\n");
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  const Mesh& smooth = scene.meshes[scene.meshes[0].normals.empty() ? 1 : 0];
+  EXPECT_LT(glm::length(smooth.normals[2] - glm::normalize(Vec3(0, 1, 1))), kRounding);
+}
+
+TEST_F(ObjLoader, NonsenseIsRefusedOrEmpty) {
+  for (const char* text :
+       {"", "\n\n", "g\n", "t x 1000000000/1000000000/0\n", "v\nvn\nvt\nf\n", "usemtl\nmtllib\n", "f 1 2\n"}) {
+    try {
+      EXPECT_EQ(load(text).triangleCount(), 0u);
+    } catch (const InputError&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cellcut
