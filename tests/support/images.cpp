@@ -66,8 +66,8 @@ std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::
   constexpr int kTiles = 8;
   std::ostringstream text;
   // A dark tile that lives of a few bright paths is no normal variable: mean and error go together, and |z| is too large too often.
-  // 400 equally bright paths would give this relative error; the picture as a whole has thousands.
-  const auto fewHits = [](const Estimate& e) { return e.mean * e.mean < 400 * e.variance; };
+  // 1,000 equally bright paths have this relative error; the picture as a whole has many more.
+  const auto fewHits = [](const Estimate& e) { return e.mean * e.mean < 1000 * e.variance; };
   const auto compare = [&](const std::vector<Estimate>& as, const std::vector<Estimate>& bs, const char* what) {
     const double limit = criticalZ(as.size() * comparisons);
     for (std::size_t i = 0; i < as.size(); ++i) {
