@@ -78,6 +78,7 @@ double clusterWeightsScalar(const ClusterArrays& clusters, const Vec3& n, float*
 }
 
 ClusterArrays::ClusterArrays(std::size_t count) : size(count) {
+  if (count == 0) return;
   const std::size_t floats = kFieldCount * blocks() * kClusterBlock;
   values.reset(static_cast<float*>(hwy::AllocateAlignedBytes(floats * sizeof(float), nullptr, nullptr)));
   std::fill_n(values.get(), floats, 0.0f);

@@ -1,5 +1,5 @@
-// Proofs 1 and 2 of every strategy: its probabilities are probabilities, they are those it samples with, and no light that
-// contributes is left out.
+// Proofs 1 and 2 of every strategy: its probabilities are probabilities, they are those it samples with, and no light
+// that contributes is left out.
 #include "renderer/base/rng.h"
 #include "tests/support/depth.h"
 #include "tests/support/reference.h"
@@ -40,12 +40,24 @@ class LightSamplerPmf : public StrategyAndLights {
 };
 
 TEST_P(LightSamplerPmf, SumsToOneOrNoLightReachesThePoint) {
-  forEachPoint({1, 2, 33, 1024}, [](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
+  forEachPoint({1, 2, 33, 1024}, [&](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
     const std::vector<double> pmf = allPmfs(sampler, lights, point);
     const double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
-    const bool some = sampler.sample(point, 0.5).has_value();
     // Each of at most 1024 probabilities is rounded to a float: 6e-8 of it.
-    EXPECT_NEAR(sum, some ? 1 : 0, 1e-5);
+    constexpr double rounding = 1e-5;
+    if (strategy() != Strategy::kLightTree) {
+      EXPECT_NEAR(sum, sampler.sample(point, 0.5).has_value() ? 1 : 0, rounding);
+      return;
+    }
+    // A descent by bounds can end where no light is left: what is missing is the probability of no light.
+    constexpr int n = 40'000;
+    int none = 0;
+    Rng rng(seed());
+    for (int i = 0; i < n; ++i) none += !sampler.sample(point, rng.uniformDouble());
+    EXPECT_LE(sum, 1 + rounding);
+    const double missing = std::max(0.0, 1 - sum);
+    // Six points of four numbers of lights: |z| < 4 fails once in 600 honest runs, and the seed is fixed.
+    EXPECT_NEAR(none, missing * n, 4 * std::sqrt(n * missing * (1 - std::min(1.0, missing))) + rounding * n);
   });
 }
 
@@ -79,6 +91,8 @@ TEST_P(LightSamplerPmf, IsPositiveForEveryLightThatContributes) {
 }
 
 TEST_P(LightSamplerPmf, GivesNoSampleOnlyWhereNoLightContributes) {
+  if (strategy() == Strategy::kLightTree)
+    return;  // a descent may end in nothing anywhere: SumsToOneOrNoLightReachesThePoint
   forEachPoint({1, 2, 33}, [](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
     if (sampler.sample(point, 0.5)) return;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -96,18 +110,16 @@ TEST_P(LightSamplerPmf, AgreesWithTheCountsOfSamples) {
   Rng rng(hashOf(seed(), 2));
   for (const ShadingPoint& point : points) {
     const std::vector<double> pmf = allPmfs(*sampler, lights, point);
-    std::vector<std::uint64_t> counts(pmf.size());
-    std::size_t drawn = 0;
+    // The last outcome is that no light is drawn.
+    std::vector<double> outcomes = pmf;
+    outcomes.push_back(std::max(0.0, 1 - std::accumulate(pmf.begin(), pmf.end(), 0.0)));
+    std::vector<std::uint64_t> counts(outcomes.size());
     for (std::size_t i = 0; i < n; ++i) {
-      if (const auto sample = sampler->sample(point, rng.uniformDouble())) {
-        ++counts[static_cast<std::size_t>(sample->light)];
-        ++drawn;
-      }
+      const auto sample = sampler->sample(point, rng.uniformDouble());
+      ++counts[sample ? static_cast<std::size_t>(sample->light) : pmf.size()];
     }
-    // Σ pmf is 1 or nothing is ever drawn: there is no third way.
-    ASSERT_TRUE(drawn == n || drawn == 0);
-    if (drawn == 0) continue;
-    const ChiSquare test = chiSquareTest(counts, pmf);
+    if (counts.back() == n) continue;
+    const ChiSquare test = chiSquareTest(counts, outcomes);
     EXPECT_EQ(test.impossible, 0u);
     EXPECT_GT(test.p, sidak(kAlpha, points.size()))
         << "chi square " << test.statistic << " with " << test.degreesOfFreedom << " degrees of freedom";
