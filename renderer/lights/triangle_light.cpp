@@ -13,8 +13,9 @@ namespace {
 /// but a hemisphere and Arvo's formulas divide by almost zero (pbrt's limit).
 constexpr float kMinSolidAngle = 1e-2f;
 constexpr float kMaxSolidAngle = 6.22f;
-/// Cosine between corners below which points are sampled: from close to the middle of an edge its ends are all but opposite, and
-/// their float directions no longer say which plane the edge is in. Here, 4 · 10⁻³ short of opposite, it is right to 2 · 10⁻⁵.
+/// Cosine between corners below which points are sampled: from close to the middle of an edge its ends are all but
+/// opposite, and their float directions no longer say which plane the edge is in. Here, 4 · 10⁻³ short of opposite, it
+/// is right to 2 · 10⁻⁵.
 constexpr float kMinCornerCosine = -1 + 1e-5f;
 
 /// A triangle as the observer sees it on the unit sphere.

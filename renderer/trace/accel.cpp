@@ -58,8 +58,8 @@ RTCRay embreeRay(const Ray& ray) {
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  // Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin, where there is no rounding error
-  // to be moved past, meets its own triangle at exactly 0.
+  // Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin, where there is no
+  // rounding error to be moved past, meets its own triangle at exactly 0.
   r.tnear = std::numeric_limits<float>::min();
   r.tfar = ray.tMax;
   r.time = 0;

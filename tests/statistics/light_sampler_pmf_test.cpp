@@ -1,5 +1,5 @@
-// Proofs 1 and 2 of every strategy: its probabilities are probabilities, they are those it samples with, and no light that
-// contributes is left out.
+// Proofs 1 and 2 of every strategy: its probabilities are probabilities, they are those it samples with, and no light
+// that contributes is left out.
 #include "renderer/base/rng.h"
 #include "tests/support/depth.h"
 #include "tests/support/reference.h"
