@@ -59,9 +59,9 @@ Verb addGenerate(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("generate", "Write a procedural scene with any number of lights");
   const auto options = std::make_shared<GenerateOptions>();
   GenerateOptions& o = *options;
-  const auto add = [verb](const char* name, const char* type, std::function<void(const std::string&)> use,
+  const auto add = [verb](const char* name, const char* type, const std::function<void(const std::string&)>& use,
                           const char* description) {
-    return verb->add_option_function<std::string>(name, std::move(use), description)->type_name(type);
+    return verb->add_option_function<std::string>(name, use, description)->type_name(type);
   };
   add(
       "RECIPE", "", [&o](const std::string& t) { o.recipe = parseRecipe(t); }, "What to build; see below")

@@ -8,7 +8,8 @@
 namespace cellcut {
 
 /// Bad input: a file, an option or a scene that cannot be used. Everything else is an assertion.
-/// what() is one line, ready to be shown: "lamp.gltf: accessors[3]: reaches past its bufferView; export the file again".
+/// what() is one line, ready to be shown: "lamp.gltf: accessors[3]: reaches past its bufferView; export the file
+/// again".
 class InputError : public std::runtime_error {
  public:
   /// \param where   the file, and the place in it when there is one ("lamp.gltf: accessors[3]")

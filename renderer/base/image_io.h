@@ -23,9 +23,9 @@ using ImageRgba8 = Image<glm::vec<4, std::uint8_t>>;
 
 /// A named layer of a multi-layer picture. With one channel the layer is a scalar, with three it is RGB or XYZ.
 struct ImageLayer {
-  std::string name;               ///< "" for the beauty (channels R, G, B), else the prefix: "normal" → normal.X …
+  std::string name;  ///< "" for the beauty (channels R, G, B), else the prefix: "normal" → normal.X …
   std::vector<std::string> channels;  ///< suffixes, one per component: {"R","G","B"}, {"X","Y","Z"}, {"Z"}
-  std::vector<float> values;      ///< pixel-interleaved, width · height · channels.size()
+  std::vector<float> values;          ///< pixel-interleaved, width · height · channels.size()
 };
 
 /// A picture of one or more layers with what is known of how it was made.
@@ -36,8 +36,10 @@ struct LayeredImage {
   std::map<std::string, std::string> metadata;
 };
 
-/// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey), .pfm or .hdr.
-/// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than kMaxImagePixels.
+/// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey; the display
+/// window, black where there is no data), .pfm or .hdr. The numbers are taken as Rec. 709, whatever primaries a file
+/// names. \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than
+/// kMaxImagePixels.
 ImageRgb readImage(const std::filesystem::path& file);
 
 /// The same from memory; the kind is known by its first bytes. `name` is used in messages only.

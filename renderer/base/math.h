@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -40,6 +41,12 @@ inline float maxComponent(const Vec3& v) {
 }
 inline float safeSqrt(float x) {
   return std::sqrt(std::max(0.0f, x));
+}
+
+/// The next float towards +∞. \pre x is finite
+inline float nextFloatUp(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);  // −0 becomes +0
+  return std::bit_cast<float>(x < 0 ? bits - 1 : bits + 1);
 }
 
 /// Relative error bound of n chained float operations, n·u / (1 − n·u) with the unit round-off u = 2⁻²⁴.

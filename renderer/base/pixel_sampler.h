@@ -30,11 +30,13 @@ class PixelSampler {
         // Passes past 2³² start another scramble.
         pixel_(hashOf(seed, x, y, pass >> 32)) {}
 
+  /// Random bits of the path that are no part of its well-distributed dimensions.
+  std::uint64_t nextBits() { return bitsOf(nextGroup()); }
+
   /// The next four dimensions of the path.
   Sample4 next() {
-    pixel_ += 0x9e3779b97f4a7c15ull;
-    const std::uint64_t group = mixBits(pixel_);
-    const std::uint64_t extra = mixBits(group ^ (index_ * 0xd1342543de82ef95ull));
+    const std::uint64_t group = nextGroup();
+    const std::uint64_t extra = bitsOf(group);
     if (sampling_ == PixelSampling::kSobol) return {owenSobol4(index_, group), extra};
     const std::uint64_t a = mixBits(extra + 0x9e3779b97f4a7c15ull);
     const std::uint64_t b = mixBits(extra + 2 * 0x9e3779b97f4a7c15ull);
@@ -44,6 +46,9 @@ class PixelSampler {
   }
 
  private:
+  std::uint64_t nextGroup() { return mixBits(pixel_ += 0x9e3779b97f4a7c15ull); }
+  std::uint64_t bitsOf(std::uint64_t group) const { return mixBits(group ^ (index_ * 0xd1342543de82ef95ull)); }
+
   PixelSampling sampling_;
   std::uint32_t index_;
   std::uint64_t pixel_;

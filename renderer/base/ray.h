@@ -28,8 +28,8 @@ inline Vec3 offsetRayOrigin(const Vec3& p, const Vec3& error, const Vec3& normal
   const Vec3 offset = (glm::dot(direction, normal) < 0 ? -distance : distance) * normal;
   Vec3 moved = p + offset;
   for (int i = 0; i < 3; ++i) {
-    if (offset[i] > 0) moved[i] = std::nextafter(moved[i], kInfinity);
-    if (offset[i] < 0) moved[i] = std::nextafter(moved[i], -kInfinity);
+    if (offset[i] > 0) moved[i] = nextFloatUp(moved[i]);
+    if (offset[i] < 0) moved[i] = -nextFloatUp(-moved[i]);
   }
   return moved;
 }

@@ -9,7 +9,9 @@ constexpr std::uint32_t reverseBits(std::uint32_t v) {
   v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
   v = ((v >> 2) & 0x33333333u) | ((v & 0x33333333u) << 2);
   v = ((v >> 4) & 0x0f0f0f0fu) | ((v & 0x0f0f0f0fu) << 4);
-  return __builtin_bswap32(v);
+  // Not a byte-swap instruction: shifts let the compiler reverse four numbers at once.
+  v = ((v >> 8) & 0x00ff00ffu) | ((v & 0x00ff00ffu) << 8);
+  return (v >> 16) | (v << 16);
 }
 
 /// Hash in which every bit depends on lower bits only: on reversed bits, an Owen scramble.
@@ -76,12 +78,15 @@ std::array<std::uint32_t, 4> owenSobol4(std::uint32_t index, std::uint64_t seed)
   const std::uint32_t shuffle = reverseBits(laineKarras(reverseBits(index), static_cast<std::uint32_t>(seed)));
   const std::uint32_t i = (index & ~kShuffled) | (shuffle & kShuffled);
 
-  std::uint64_t h = mixBits(seed ^ 0x632be59bd9b4e019ull);
+  const std::uint64_t h = mixBits(seed ^ 0x632be59bd9b4e019ull);
   const std::uint64_t g = mixBits(h);
-  return {reverseBits(laineKarras(i, static_cast<std::uint32_t>(h))),
-          reverseBits(laineKarras(reversedSobol(kTables[0], i), static_cast<std::uint32_t>(h >> 32))),
-          reverseBits(laineKarras(reversedSobol(kTables[1], i), static_cast<std::uint32_t>(g))),
-          reverseBits(laineKarras(reversedSobol(kTables[2], i), static_cast<std::uint32_t>(g >> 32)))};
+  const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32),
+                                           static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(g >> 32)};
+  const std::array<std::uint32_t, 4> reversed{i, reversedSobol(kTables[0], i), reversedSobol(kTables[1], i),
+                                              reversedSobol(kTables[2], i)};
+  std::array<std::uint32_t, 4> points;
+  for (std::size_t d = 0; d < 4; ++d) points[d] = reverseBits(laineKarras(reversed[d], seeds[d]));
+  return points;
 }
 
 }  // namespace cellcut

@@ -5,7 +5,6 @@
 
 #include <map>
 
-#include <glm/gtc/matrix_access.hpp>
 #include <glm/mat3x3.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -177,8 +176,8 @@ void writeVertices(const Part& part, const Placement& place, const glm::dvec3& c
                     });
 }
 
-/// Twice the area times the unit normal, exact enough that it is zero only for three points on a line: differences of
-/// floats of like size are exact in double, and no product of three of them leaves its range.
+/// Twice the area times the unit normal, of the rounded positions, in double: no product of two differences of floats
+/// leaves its range, so that a triangle of any size has an area unless its corners lie on a line.
 glm::dvec3 facetNormal(const Mesh& mesh, const Triangle& triangle) {
   const glm::dvec3 a(mesh.positions[triangle.x]), b(mesh.positions[triangle.y]), c(mesh.positions[triangle.z]);
   return glm::cross(b - a, c - a);

@@ -79,32 +79,35 @@ class Path {
       : context_(context), random_(random), counts_(counts) {}
 
   PathSample trace(Ray ray) {
-    Sample4 numbers = random_.next();
+    std::uint64_t coverageBits = random_.nextBits();
     for (int depth = 0;; ++depth) {
       if (context_.record) context_.record->rays.push_back({ray, false});
-      const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
+      const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(coverageBits));
       if (!hit) {
         addEnvironment(ray.direction);
         break;
       }
+      const Material& material = context_.scene.materials[indexOf(context_.scene.meshes[indexOf(hit->mesh)].material)];
+      const bool last = depth == context_.maxDepth;
+      if (last && depth > 0 && isBlack(material.emission) && !material.unlit) break;
       const SurfacePoint surface = surfaceAt(context_.scene, *hit);
-      const Material& material = context_.scene.materials[indexOf(surface.at.mesh->material)];
       if (depth == 0) recordFirstHit(surface, *hit, ray);
       if (material.unlit) {
         result_.radiance += throughput_ * baseColor(context_.scene, surface.at);
         break;
       }
       addEmission(surface, material, *hit, ray.direction);
-      if (depth == context_.maxDepth) break;
+      if (last) break;
 
       const Vertex vertex = makeVertex(context_.scene, surface, -ray.direction);
       if (depth == 0) result_.normal = vertex.frame.z;
       addDirectLight(vertex);
       if (depth + 1 == context_.maxDepth && !context_.bounceCanFind) break;
-      numbers = random_.next();
+      const Sample4 numbers = random_.next();
       const std::optional<Ray> next = scatter(vertex, numbers);
       if (!next || !survives(depth, numbers)) break;
       ++counts_.bounceRays;
+      coverageBits = numbers.extra;
       ray = *next;
     }
     return result_;

@@ -265,7 +265,20 @@ void put32(std::vector<std::byte>& file, std::size_t at, std::uint32_t value) {
 TEST(ExrReader, RefusesAttributeLargerThanTheFile) {
   std::vector<std::byte> file = smallFile();
   put32(file, find(file, "screenWindowWidth") + 17 + 1 + 6, 0x7fffffff);  // name, its end, "float" and its end
-  EXPECT_THAT(messageOf(file), HasSubstr("header reaches past"));
+  EXPECT_THAT(messageOf(file), HasSubstr("attribute"));
+}
+
+TEST(ExrReader, RefusesAttributeOfAnotherSizeThanItsType) {
+  // The library would take the next attribute from the middle of this one, and its size from anywhere.
+  std::vector<std::byte> file = smallFile();
+  const std::size_t size = find(file, "channels") + 9 + 7;  // past the name and "chlist", each with its end
+  std::vector<std::byte> longer = file, shorter = file;
+  longer[size] = static_cast<std::byte>(std::to_integer<int>(file[size]) + 4);
+  shorter[size] = static_cast<std::byte>(std::to_integer<int>(file[size]) - 4);
+  EXPECT_THAT(messageOf(longer), HasSubstr("attribute"));
+  EXPECT_THAT(messageOf(shorter), HasSubstr("attribute"));
+  file[find(file, "screenWindowWidth") + 17 + 1 + 6] = std::byte{5};  // a float of five bytes
+  EXPECT_THAT(messageOf(file), HasSubstr("attribute"));
 }
 
 TEST(ExrReader, RefusesWindowsThatTheFileCannotHold) {

@@ -93,7 +93,7 @@ TEST_F(GltfLoader, WarnsOfPointsAndLinesAndShowsTheRest) {
 }
 
 template <class T>
-void expectIndexed(GltfLoader&, GltfBuilder& file, int componentType) {
+void addIndexedTriangle(GltfBuilder& file, int componentType) {
   Json primitive = file.primitive({{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   primitive["indices"] = file.addAccessor(std::vector<T>{3, 1, 2}, "SCALAR", componentType);
   file.addRoot({{"mesh", file.addMesh(primitive)}});
@@ -102,9 +102,9 @@ void expectIndexed(GltfLoader&, GltfBuilder& file, int componentType) {
 TEST_F(GltfLoader, ReadsAllIndexTypesAndLeavesUnusedVerticesOut) {
   for (const int type : {5121, 5123, 5125}) {
     GltfBuilder file;
-    if (type == 5121) expectIndexed<std::uint8_t>(*this, file, type);
-    if (type == 5123) expectIndexed<std::uint16_t>(*this, file, type);
-    if (type == 5125) expectIndexed<std::uint32_t>(*this, file, type);
+    if (type == 5121) addIndexedTriangle<std::uint8_t>(file, type);
+    if (type == 5123) addIndexedTriangle<std::uint16_t>(file, type);
+    if (type == 5125) addIndexedTriangle<std::uint32_t>(file, type);
     const Scene scene = load(file);
     ASSERT_EQ(scene.triangleCount(), 1u);
     const Mesh& mesh = scene.meshes[0];
