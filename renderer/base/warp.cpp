@@ -32,8 +32,8 @@ Vec2 uniformTriangle(Vec2 u) {
   return {u.x - 0.5f * u.y, 0.5f * u.y};
 }
 
-// In double: from close to an edge its ends are all but opposite, where float sums of angles and triple products are right to
-// 10⁻³ only.
+// In double: from close to an edge its ends are all but opposite, where float sums of angles and triple products are
+// right to 10⁻³ only.
 float sphericalTriangleArea(const std::array<Vec3, 3>& corners) {
   const DVec3 a(corners[0]), b(corners[1]), c(corners[2]);
   // The triple product of differences keeps its digits where the corners are close together.
@@ -43,7 +43,8 @@ float sphericalTriangleArea(const std::array<Vec3, 3>& corners) {
 }
 
 std::optional<Vec3> uniformSphericalTriangle(const std::array<Vec3, 3>& corners, Vec2 u) {
-  const DVec3 a = glm::normalize(DVec3(corners[0])), b = glm::normalize(DVec3(corners[1])), c = glm::normalize(DVec3(corners[2]));
+  const DVec3 a = glm::normalize(DVec3(corners[0])), b = glm::normalize(DVec3(corners[1])),
+              c = glm::normalize(DVec3(corners[2]));
   const DVec3 nAb = glm::cross(a, b), nBc = glm::cross(b, c), nCa = glm::cross(c, a);
   const double lAb = glm::length(nAb), lBc = glm::length(nBc), lCa = glm::length(nCa);
   if (lAb == 0 || lBc == 0 || lCa == 0) return std::nullopt;

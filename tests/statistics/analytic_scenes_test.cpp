@@ -91,7 +91,8 @@ TEST_P(AnalyticScene, SphereUnderFarTriangle) {
               {1, -0.6666667f, 100});
   expectMean(scene, overDisk([&](double theta) {
                const double d2 = 100.0 * 100 + 1 - 200 * std::cos(theta), d = std::sqrt(d2);
-               const double cosine = std::max(0.0, 100 * std::cos(theta) - 1) / d, emission = (100 - std::cos(theta)) / d;
+               const double cosine = std::max(0.0, 100 * std::cos(theta) - 1) / d,
+                            emission = (100 - std::cos(theta)) / d;
                return kAlbedo / kPiD * 5000 * area * emission * cosine / d2;
              }));
 }
@@ -129,7 +130,8 @@ TEST_P(AnalyticScene, SphereUnderLinearEnvironment) {
 
 TEST_P(AnalyticScene, WhiteFurnaceIsWhite) {
   Scene scene = sphere(lambertian(Vec3(1)));
-  addSphere(scene, addMaterial(scene, lambertian(Vec3(1))), {0.9f, 0.9f, 0.5f}, 0.4f);  // light goes to and fro between the two
+  addSphere(scene, addMaterial(scene, lambertian(Vec3(1))), {0.9f, 0.9f, 0.5f},
+            0.4f);  // light goes to and fro between the two
   scene.environment = environmentOf(16, 8, [](double) { return 1.0; });
   // 60 vertices: what is still under way has met a white surface 60 times in the open, less than 10⁻⁶.
   expectMean(scene, 1, 0.002, 60);

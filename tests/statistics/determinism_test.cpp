@@ -10,8 +10,8 @@
 namespace cellcut::test {
 namespace {
 
-/// Everything that may depend on the order of threads: enough triangles for Embree to build in parallel, surfaces at the very same
-/// place, stochastic coverage, lights of every kind, paths of several vertices.
+/// Everything that may depend on the order of threads: enough triangles for Embree to build in parallel, surfaces at
+/// the very same place, stochastic coverage, lights of every kind, paths of several vertices.
 Scene hardScene() {
   Scene scene = stage(LightMix::kAll, 60, 8);
   const MaterialId red = addMaterial(scene, lambertian({0.9f, 0.1f, 0.1f}));

@@ -1,5 +1,5 @@
-// Proof 3 of every strategy for pictures: at first and at later vertices, against a path tracer that chooses no light, and against
-// each other.
+// Proof 3 of every strategy for pictures: at first and at later vertices, against a path tracer that chooses no light,
+// and against each other.
 #include "renderer/base/rng.h"
 #include "tests/support/depth.h"
 #include "tests/support/images.h"
@@ -9,9 +9,13 @@ namespace cellcut::test {
 namespace {
 
 /// Shadows of unequal lights leave few hits in a dark tile; a tile of 4² pixels with this many paths has thousands.
-std::size_t passes() { return byDepth(256, 4096); }
+std::size_t passes() {
+  return byDepth(256, 4096);
+}
 /// The reference sums over all lights: far less variance per path, far more time.
-std::size_t referencePasses() { return byDepth(48, 512); }
+std::size_t referencePasses() {
+  return byDepth(48, 512);
+}
 
 RenderSettings settingsFor(int maxDepth) {
   RenderSettings settings;
@@ -44,10 +48,12 @@ void expectAllAgree(const Scene& scene, RenderSettings settings) {
   }
 }
 
-TEST_P(Pictures, AllStrategiesAndTheReferenceAgree) { expectAllAgree(stage(mix(), 15, 3), settingsFor(maxDepth())); }
+TEST_P(Pictures, AllStrategiesAndTheReferenceAgree) {
+  expectAllAgree(stage(mix(), 15, 3), settingsFor(maxDepth()));
+}
 
-/// Emission and coverage that vary over the light: a glowing picture on half-transparent glass, one cut out by a mask, both sides of
-/// one and the front of the other, and a veil without emission before them.
+/// Emission and coverage that vary over the light: a glowing picture on half-transparent glass, one cut out by a mask,
+/// both sides of one and the front of the other, and a veil without emission before them.
 void addTexturedLights(Scene& scene) {
   Rng rng(5);
   ImageRgba8 texels(8, 8);

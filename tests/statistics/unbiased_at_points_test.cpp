@@ -1,5 +1,5 @@
-// Proof 3 of every strategy at single points: the estimator's mean is the sum over all lights, found by quadrature in double.
-// Proof 5: it stays the same when the same light is described in another way.
+// Proof 3 of every strategy at single points: the estimator's mean is the sum over all lights, found by quadrature in
+// double. Proof 5: it stays the same when the same light is described in another way.
 #include "tests/support/depth.h"
 #include "tests/support/estimator.h"
 #include "tests/support/strategies.h"
@@ -44,11 +44,13 @@ class UnbiasedAtPoints : public StrategyAndLights {
   static std::size_t samples() { return byDepth(100'000, 65'536); }
 
   /// Direct light at all receivers of a scene against that of another description of it.
-  void expectReferenceOf(const Scene& scene, const Scene& referenceScene, const std::vector<Receiver>& receivers) const {
+  void expectReferenceOf(const Scene& scene, const Scene& referenceScene,
+                         const std::vector<Receiver>& receivers) const {
     const PointEstimator estimator(scene, strategy());
     PointTests tests(receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-      tests.add(estimator.reflected(receivers[i], samples(), hashOf(seed(), i)), referenceReflected(referenceScene, receivers[i]));
+      tests.add(estimator.reflected(receivers[i], samples(), hashOf(seed(), i)),
+                referenceReflected(referenceScene, receivers[i]));
     }
     // Some receivers turn their back on the few lights of a set.
     tests.finish(receivers.size() / 2);
@@ -113,28 +115,31 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
     Scene scene;
     addFacets(scene, receivers);
     // Ends 0.7 above the origin, so that receivers see it from all sides, some as almost a hemisphere.
-    addQuad(scene, addMaterial(scene, emitter({3, 2, 1}, true)), {-1, 0.7f, -1}, {2.5f, 0, 0}, {0, 0, 2.2f}, columns, rows);
+    addQuad(scene, addMaterial(scene, emitter({3, 2, 1}, true)), {-1, 0.7f, -1}, {2.5f, 0, 0}, {0, 0, 2.2f}, columns,
+            rows);
     finish(scene);
     return scene;
   };
   const Scene fine = quad(16, 16);
   // 2, 32 and 10,000 triangles; a strategy of O(N) cannot have the last on every change.
-  for (const auto& [columns, rows] : {std::pair(1, 1), std::pair(4, 4), std::pair(static_cast<int>(byDepth(8, 100)), 50)}) {
+  for (const auto& [columns, rows] :
+       {std::pair(1, 1), std::pair(4, 4), std::pair(static_cast<int>(byDepth(8, 100)), 50)}) {
     SCOPED_TRACE(std::to_string(2 * columns * rows) + " triangles");
     const Scene scene = quad(columns, rows);
     const PointEstimator estimator(scene, GetParam().strategy);
     PointTests tests(3 * receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       const std::size_t samples = byDepth(columns * rows > 100 ? 10'000 : 100'000, 65'536);
-      tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)), referenceReflected(fine, receivers[i]));
+      tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)),
+                referenceReflected(fine, receivers[i]));
     }
     tests.finish(receivers.size() / 2);
   }
 }
 
 TEST_P(QuadLight, CoversTheHemisphereOfAPointCloseToIt) {
-  // Too close for sampling the light: MIS leaves it to the BSDF. White facet under a sky of radiance 1: all but the edges of a
-  // quad 10⁴ times as wide as it is far, (10⁻⁴)².
+  // Too close for sampling the light: MIS leaves it to the BSDF. White facet under a sky of radiance 1: all but the
+  // edges of a quad 10⁴ times as wide as it is far, (10⁻⁴)².
   Scene scene;
   addFacets(scene, {{Vec3(0), {0, 1, 0}}});
   addQuad(scene, addMaterial(scene, emitter(Vec3(1), false)), {-5, 1e-3f, -5}, {10, 0, 0}, {0, 0, 10});

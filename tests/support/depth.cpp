@@ -14,7 +14,9 @@
 
 namespace cellcut::test {
 
-std::size_t byDepth(std::size_t always, std::size_t atNight) { return isNightly() ? atNight : always; }
+std::size_t byDepth(std::size_t always, std::size_t atNight) {
+  return isNightly() ? atNight : always;
+}
 
 std::size_t sampleShare(std::size_t samples) {
 #ifdef CELLCUT_SANITIZED

@@ -12,8 +12,8 @@ Image<Estimate> estimatesOf(const Film& film) {
   const ImageRgb mean = film.mean(), error = film.standardError();
   Image<Estimate> result(film.width(), film.height());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    // The lights of the tests colour all channels by nearly one pattern, so the channels' errors add up and not their squares: the
-    // bound that holds for any correlation.
+    // The lights of the tests colour all channels by nearly one pattern, so the channels' errors add up and not their
+    // squares: the bound that holds for any correlation.
     const double sigma = luminance(glm::dvec3(error[i]));
     result[i] = {luminance(glm::dvec3(mean[i])), sigma * sigma};
   }
@@ -65,8 +65,8 @@ std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide) {
 std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons) {
   constexpr int kTiles = 8;
   std::ostringstream text;
-  // A dark tile that lives of a few bright paths is no normal variable: mean and error go together, and |z| is too large too often.
-  // 1,000 equally bright paths have this relative error; the picture as a whole has many more.
+  // A dark tile that lives of a few bright paths is no normal variable: mean and error go together, and |z| is too
+  // large too often. 1,000 equally bright paths have this relative error; the picture as a whole has many more.
   const auto fewHits = [](const Estimate& e) { return e.mean * e.mean < 1000 * e.variance; };
   const auto compare = [&](const std::vector<Estimate>& as, const std::vector<Estimate>& bs, const char* what) {
     const double limit = criticalZ(as.size() * comparisons);
@@ -74,7 +74,8 @@ std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::
       if (as.size() > 1 && (fewHits(as[i]) || fewHits(bs[i]))) continue;
       const double z = zScore(as[i].mean, as[i].variance, bs[i].mean, bs[i].variance);
       if (std::abs(z) <= limit) continue;
-      text << what << " " << i << ": " << as[i].mean << " against " << bs[i].mean << ", z = " << z << " beyond " << limit << "\n";
+      text << what << " " << i << ": " << as[i].mean << " against " << bs[i].mean << ", z = " << z << " beyond "
+           << limit << "\n";
     }
   };
   compare(tilesOf(a, kTiles), tilesOf(b, kTiles), "tile");

@@ -20,8 +20,8 @@ struct Place {
   Vec3 n;
   const Accel* occluders;
 
-  /// Share of a ray along `d` to `end` (1 is the tip of d) that arrives: 0 or 1. It starts and stops a ten-thousandth off both
-  /// ends; the geometry of the tests keeps its distance.
+  /// Share of a ray along `d` to `end` (1 is the tip of d) that arrives: 0 or 1. It starts and stops a ten-thousandth
+  /// off both ends; the geometry of the tests keeps its distance.
   double visibility(const DVec3& d, double end = 0.9999) const {
     if (!occluders) return 1;
     const Vec3 origin(DVec3(p) + 1e-4 * DVec3(n));
@@ -42,7 +42,8 @@ DVec3 spotIrradiance(const SpotLight& spot, const Place& place) {
 }
 
 /// Midpoint rule over resolution² congruent parts.
-DVec3 triangleIrradiance(const Mesh& mesh, std::uint32_t index, const Material& material, const Place& place, int resolution) {
+DVec3 triangleIrradiance(const Mesh& mesh, std::uint32_t index, const Material& material, const Place& place,
+                         int resolution) {
   const Triangle& t = mesh.triangles[index];
   const DVec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
   const DVec3 cross = glm::cross(b - a, c - a);
@@ -75,10 +76,13 @@ DVec3 tileIrradiance(const EnvironmentLight& light, std::size_t tile, const Plac
   };
   for (int y = static_cast<int>(t.y * size) * resolution; y < last(t.y, height); ++y) {
     const double v = (y + 0.5) / (height * resolution);
-    const double solidAngle = 4 * pi / (width * resolution) * std::sin(pi * v) * std::sin(pi * 0.5 / (height * resolution));
+    const double solidAngle =
+        4 * pi / (width * resolution) * std::sin(pi * v) * std::sin(pi * 0.5 / (height * resolution));
     for (int x = static_cast<int>(t.x * size) * resolution; x < last(t.x, width); ++x) {
-      const double azimuth = 2 * pi * ((x + 0.5) / (width * resolution) - 0.5) - static_cast<double>(environment.rotation);
-      const DVec3 direction(std::sin(pi * v) * std::cos(azimuth), std::cos(pi * v), std::sin(pi * v) * std::sin(azimuth));
+      const double azimuth =
+          2 * pi * ((x + 0.5) / (width * resolution) - 0.5) - static_cast<double>(environment.rotation);
+      const DVec3 direction(std::sin(pi * v) * std::cos(azimuth), std::cos(pi * v),
+                            std::sin(pi * v) * std::sin(azimuth));
       const double cosine = glm::dot(direction, DVec3(place.n));
       if (cosine <= 0) continue;
       sum += referenceEnvironment(environment, direction) *
@@ -93,7 +97,8 @@ DVec3 tileIrradiance(const EnvironmentLight& light, std::size_t tile, const Plac
 DVec3 referenceEnvironment(const Environment& environment, const DVec3& direction) {
   constexpr double pi = std::numbers::pi;
   const int width = environment.radiance.width(), height = environment.radiance.height();
-  const double turns = (std::atan2(direction.z, direction.x) + static_cast<double>(environment.rotation)) / (2 * pi) + 0.5;
+  const double turns =
+      (std::atan2(direction.z, direction.x) + static_cast<double>(environment.rotation)) / (2 * pi) + 0.5;
   const double x = (turns - std::floor(turns)) * width - 0.5;
   const double y = std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi * height - 0.5;
   const auto texel = [&](double column, double row) {
@@ -111,8 +116,10 @@ DVec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, co
   const std::size_t i = lights.indexInKind(light);
   const Place place{p, n, occluders};
   switch (lights.kind(light)) {
-    case LightKind::kPoint: return positional(scene.pointLights[i].position, DVec3(scene.pointLights[i].intensity), place);
-    case LightKind::kSpot: return spotIrradiance(scene.spotLights[i], place);
+    case LightKind::kPoint:
+      return positional(scene.pointLights[i].position, DVec3(scene.pointLights[i].intensity), place);
+    case LightKind::kSpot:
+      return spotIrradiance(scene.spotLights[i], place);
     case LightKind::kTriangle: {
       const TriangleLight& triangle = lights.triangles()[i];
       const Mesh& mesh = scene.meshes[indexOf(triangle.mesh)];
@@ -124,7 +131,8 @@ DVec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, co
       return DVec3(directional.irradiance) * std::max(0.0, glm::dot(d, DVec3(n))) *
              place.visibility(d, std::numeric_limits<double>::infinity());
     }
-    case LightKind::kEnvironment: return tileIrradiance(*lights.environment(), i, place, resolution);
+    case LightKind::kEnvironment:
+      return tileIrradiance(*lights.environment(), i, place, resolution);
   }
   return DVec3(0);
 }
@@ -158,10 +166,12 @@ Vec3 ReferenceTracer::punctualLight(const Vertex& vertex, Rng& random) const {
     const Vec3 arriving = vertex.reflected(direction) * intensity * (falloff(-direction) / (distance * distance));
     if (!isBlack(arriving) && visible(vertex, direction, distance, random)) sum += arriving;
   };
-  for (const PointLight& light : scene_.pointLights) add(light.position, light.intensity, [](const Vec3&) { return 1.0f; });
+  for (const PointLight& light : scene_.pointLights)
+    add(light.position, light.intensity, [](const Vec3&) { return 1.0f; });
   for (const SpotLight& light : scene_.spotLights) {
-    add(light.position, light.intensity,
-        [&](const Vec3& away) { return static_cast<float>(spotFalloff(light, static_cast<double>(glm::dot(away, light.axis)))); });
+    add(light.position, light.intensity, [&](const Vec3& away) {
+      return static_cast<float>(spotFalloff(light, static_cast<double>(glm::dot(away, light.axis))));
+    });
   }
   for (const DirectionalLight& light : scene_.directionalLights) {
     const Vec3 arriving = vertex.reflected(-light.axis) * light.irradiance;
@@ -187,7 +197,8 @@ Vec3 ReferenceTracer::triangleLight(const Vertex& vertex, Rng& random) const {
       if (material.doubleSided) cosine = std::abs(cosine);
       if (!(cosine > 0)) continue;
       const SurfaceCoordinates at{&mesh, i, {u, v}};
-      const Vec3 arriving = vertex.reflected(direction) * emission(scene_, at) * (coverage(scene_, at) * cosine / (distance * distance));
+      const Vec3 arriving =
+          vertex.reflected(direction) * emission(scene_, at) * (coverage(scene_, at) * cosine / (distance * distance));
       if (!isBlack(arriving) && visible(vertex, direction, distance, random)) sum += arriving;
     }
   }
@@ -232,11 +243,14 @@ Vec3 ReferenceTracer::trace(Ray ray, int maxDepth, Rng& random) const {
     Vec3 shading = shadingNormal(scene_, at, normal);
     if (glm::dot(shading, ray.direction) >= 0) shading = normal;
     const Frame frame(shading);
-    const Vec3 p = (1 - hit->barycentric.x - hit->barycentric.y) * v[0] + hit->barycentric.x * v[1] + hit->barycentric.y * v[2];
-    const Vertex vertex{p, triangleError(v[0], v[1], v[2]), normal, frame, frame.toLocal(-ray.direction), bsdfAt(scene_, at)};
+    const Vec3 p =
+        (1 - hit->barycentric.x - hit->barycentric.y) * v[0] + hit->barycentric.x * v[1] + hit->barycentric.y * v[2];
+    const Vertex vertex{p,     triangleError(v[0], v[1], v[2]), normal,
+                        frame, frame.toLocal(-ray.direction),   bsdfAt(scene_, at)};
     radiance += throughput * directLight(vertex, random);
 
-    const std::optional<BsdfSample> next = vertex.bsdf.sample(vertex.wo, random.uniform(), {random.uniform(), random.uniform()});
+    const std::optional<BsdfSample> next =
+        vertex.bsdf.sample(vertex.wo, random.uniform(), {random.uniform(), random.uniform()});
     if (!next) return radiance;
     const Vec3 direction = glm::normalize(frame.toWorld(next->wi));
     if (glm::dot(direction, normal) <= 0) return radiance;

@@ -16,11 +16,12 @@ namespace cellcut::test {
 glm::dvec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, const Vec3& n, int resolution,
                                const Accel* occluders = nullptr);
 
-/// Radiance of a lat-long picture along a unit direction, in double: the convention of environment.h, written once more.
+/// Radiance of a lat-long picture along a unit direction, in double: the convention of environment.h, written once
+/// more.
 glm::dvec3 referenceEnvironment(const Environment& environment, const glm::dvec3& direction);
 
-/// A path tracer that chooses no light: at every vertex it sums over all of them, triangles by uniform points, the environment by the
-/// cosine, without MIS or roulette. Scatters by Bsdf::sample, which has its own tests.
+/// A path tracer that chooses no light: at every vertex it sums over all of them, triangles by uniform points, the
+/// environment by the cosine, without MIS or roulette. Scatters by Bsdf::sample, which has its own tests.
 class ReferenceTracer {
  public:
   ReferenceTracer(const Scene& scene, const Accel& accel) : scene_(scene), accel_(accel) {}

@@ -36,8 +36,8 @@ void addSpots(Scene& scene, int count, Rng& rng) {
     // Half aim at the origin, half past it: points are inside, on the ramp and outside.
     const Vec3 target = rng.uniform(0, i % 2 == 0 ? 0.5f : 3.0f) * unitVector(rng);
     const float outer = rng.uniform(0.3f, 1.2f), inner = outer * rng.uniform(0, 0.9f);
-    scene.spotLights.push_back({position, glm::normalize(target - position), 10.0f * lightColor(rng), std::cos(inner),
-                                std::cos(outer)});
+    scene.spotLights.push_back(
+        {position, glm::normalize(target - position), 10.0f * lightColor(rng), std::cos(inner), std::cos(outer)});
   }
 }
 
@@ -130,7 +130,8 @@ void addQuad(Scene& scene, MaterialId material, const Vec3& corner, const Vec3& 
   const auto stride = static_cast<std::uint32_t>(columns + 1);
   for (int y = 0; y <= rows; ++y) {
     for (int x = 0; x <= columns; ++x) {
-      const Vec2 uv(static_cast<float>(x) / static_cast<float>(columns), static_cast<float>(y) / static_cast<float>(rows));
+      const Vec2 uv(static_cast<float>(x) / static_cast<float>(columns),
+                    static_cast<float>(y) / static_cast<float>(rows));
       mesh.positions.push_back(corner + uv.x * edgeU + uv.y * edgeV);
       mesh.texCoords[0].push_back(uv);
     }
@@ -223,12 +224,18 @@ void addLights(Scene& scene, LightMix mix, int count, std::uint64_t seed) {
     return;
   }
   switch (mix) {
-    case LightMix::kPoint: return addPoints(scene, count, rng);
-    case LightMix::kSpot: return addSpots(scene, count, rng);
-    case LightMix::kTriangle: return addTriangles(scene, count, rng);
-    case LightMix::kDirectional: return addDirectionals(scene, count, rng);
-    case LightMix::kEnvironment: return addEnvironment(scene, count, rng);
-    case LightMix::kAll: break;
+    case LightMix::kPoint:
+      return addPoints(scene, count, rng);
+    case LightMix::kSpot:
+      return addSpots(scene, count, rng);
+    case LightMix::kTriangle:
+      return addTriangles(scene, count, rng);
+    case LightMix::kDirectional:
+      return addDirectionals(scene, count, rng);
+    case LightMix::kEnvironment:
+      return addEnvironment(scene, count, rng);
+    case LightMix::kAll:
+      break;
   }
 }
 

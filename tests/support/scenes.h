@@ -19,13 +19,14 @@ Material emitter(const Vec3& radiance, bool doubleSided);
 
 MaterialId addMaterial(Scene& scene, const Material& material);
 
-/// Each adds a mesh. Fronts: a triangle's is counter-clockwise, a quad's is cross(edgeU, edgeV), a box's and a sphere's outside.
+/// Each adds a mesh. Fronts: a triangle's is counter-clockwise, a quad's is cross(edgeU, edgeV), a box's and a sphere's
+/// outside.
 Mesh& addMesh(Scene& scene, MaterialId material);
 void appendTriangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c);
 void addTriangle(Scene& scene, MaterialId material, const Vec3& a, const Vec3& b, const Vec3& c);
 /// In 2·columns·rows triangles, with the quad's corners as texture coordinates (0,0), (1,0), (1,1), (0,1).
-void addQuad(Scene& scene, MaterialId material, const Vec3& corner, const Vec3& edgeU, const Vec3& edgeV, int columns = 1,
-             int rows = 1);
+void addQuad(Scene& scene, MaterialId material, const Vec3& corner, const Vec3& edgeU, const Vec3& edgeV,
+             int columns = 1, int rows = 1);
 void addBox(Scene& scene, MaterialId material, const Vec3& lower, const Vec3& upper);
 /// Longitudes × latitudes, with smooth normals.
 void addSphere(Scene& scene, MaterialId material, const Vec3& centre, float radius, int columns = 64, int rows = 32);
@@ -43,13 +44,13 @@ inline constexpr std::array kLightMixes{LightMix::kPoint,       LightMix::kSpot,
                                         LightMix::kDirectional, LightMix::kEnvironment, LightMix::kAll};
 std::string nameOf(LightMix mix);
 
-/// Adds `count` lights around the origin, at distances from 3 to 6, of colours and strengths over two decades: a fifth of each kind for
-/// kAll. Seen from within 0.3 of the origin no triangle hides another. A count of environment lights is the number of texels,
-/// which for up to 64 is the number of tiles.
+/// Adds `count` lights around the origin, at distances from 3 to 6, of colours and strengths over two decades: a fifth
+/// of each kind for kAll. Seen from within 0.3 of the origin no triangle hides another. A count of environment lights
+/// is the number of texels, which for up to 64 is the number of tiles.
 void addLights(Scene& scene, LightMix mix, int count, std::uint64_t seed);
 
-/// A room without a ceiling around the origin: floor, two walls, a box and a rough metal ball, with addLights around it and a camera
-/// that sees all of it. Shadows and interreflection everywhere.
+/// A room without a ceiling around the origin: floor, two walls, a box and a rough metal ball, with addLights around it
+/// and a camera that sees all of it. Shadows and interreflection everywhere.
 Scene stage(LightMix mix, int count, std::uint64_t seed);
 
 }  // namespace cellcut::test

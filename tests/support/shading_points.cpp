@@ -23,7 +23,8 @@ std::optional<ShadingPoint> vertexAfter(const Scene& scene, const Accel& accel, 
     const Vec3 shading = shadingNormal(scene, {&mesh, hit->triangle, hit->barycentric}, normal);
     if (depth == bounces) return ShadingPoint{p, shading};
     const Vec3 direction = Frame(normal).toWorld(cosineHemisphere({rng.uniform(), rng.uniform()}));
-    ray = {offsetRayOrigin(p, triangleError(triangle.corners[0], triangle.corners[1], triangle.corners[2]), normal, direction),
+    ray = {offsetRayOrigin(p, triangleError(triangle.corners[0], triangle.corners[1], triangle.corners[2]), normal,
+                           direction),
            direction};
   }
 }

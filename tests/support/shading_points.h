@@ -10,8 +10,8 @@
 
 namespace cellcut::test {
 
-/// Vertices of paths from the scene's first camera: the first, then one after one bounce, then one after two, and again.
-/// Fewer than `count` only if paths keep leaving the scene.
+/// Vertices of paths from the scene's first camera: the first, then one after one bounce, then one after two, and
+/// again. Fewer than `count` only if paths keep leaving the scene.
 std::vector<ShadingPoint> pathVertices(const Scene& scene, std::size_t count, std::uint64_t seed);
 
 }  // namespace cellcut::test

@@ -34,7 +34,9 @@ double gammaFraction(double a, double x) {
 
 }  // namespace
 
-double normalTwoSidedTail(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
+double normalTwoSidedTail(double z) {
+  return std::erfc(std::abs(z) / std::numbers::sqrt2);
+}
 
 double normalCritical(double alpha) {
   double low = 0, high = 40;
@@ -49,7 +51,9 @@ double sidak(double alpha, std::size_t comparisons) {
   return -std::expm1(std::log1p(-alpha) / static_cast<double>(comparisons));
 }
 
-double criticalZ(std::size_t comparisons) { return normalCritical(sidak(kAlpha, comparisons)); }
+double criticalZ(std::size_t comparisons) {
+  return normalCritical(sidak(kAlpha, comparisons));
+}
 
 double chiSquareTail(double x, double degreesOfFreedom) {
   if (degreesOfFreedom <= 0 || x <= 0) return 1;

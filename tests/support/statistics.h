@@ -8,7 +8,8 @@
 
 namespace cellcut::test {
 
-/// Error rate of one test program's family of comparisons: an honest build fails one seed in a hundred, and the seeds are fixed.
+/// Error rate of one test program's family of comparisons: an honest build fails one seed in a hundred, and the seeds
+/// are fixed.
 inline constexpr double kAlpha = 0.01;
 
 /// P(|Z| > z) of a standard normal.

@@ -33,8 +33,8 @@ inline std::string strategyAndLightsName(const testing::TestParamInfo<StrategyAn
 }  // namespace cellcut::test
 
 /// Makes the tests of a fixture derived from StrategyAndLights run for all strategies and lights.
-#define CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(Fixture)                                                   \
-  INSTANTIATE_TEST_SUITE_P(Every, Fixture,                                                               \
-                           testing::Combine(testing::ValuesIn(cellcut::kStrategies),                     \
-                                            testing::ValuesIn(cellcut::test::kLightMixes)),              \
-                           cellcut::test::strategyAndLightsName)
+#define CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(Fixture)                                                          \
+  INSTANTIATE_TEST_SUITE_P(                                                                                     \
+      Every, Fixture,                                                                                           \
+      testing::Combine(testing::ValuesIn(cellcut::kStrategies), testing::ValuesIn(cellcut::test::kLightMixes)), \
+      cellcut::test::strategyAndLightsName)

@@ -75,7 +75,8 @@ TEST(Sobol, EveryDimensionAloneIsStratified) {
 TEST(Sobol, LaterBlocksAreNetsToo) {
   // Beyond 2¹⁶, where the shuffle of the index ends.
   for (const std::uint32_t first : {1u << 10, 1u << 16, 1u << 20, 0xfffffc00u}) {
-    for (unsigned a = 0; a <= 10; ++a) EXPECT_TRUE(isEven(prefix(10, 9, first), {a, 10 - a, 0, 0})) << first << " " << a;
+    for (unsigned a = 0; a <= 10; ++a)
+      EXPECT_TRUE(isEven(prefix(10, 9, first), {a, 10 - a, 0, 0})) << first << " " << a;
   }
 }
 
@@ -103,13 +104,15 @@ TEST(Sobol, ScramblesOfTwoSeedsAreUncorrelated) {
   // The product of two centred uniform numbers has variance 1/144.
   Moments products;
   for (std::uint64_t seed = 0; seed < 100'000; ++seed) {
-    products.add((toUnitFloat(owenSobol4(7, mixBits(seed))[0]) - 0.5) * (toUnitFloat(owenSobol4(7, mixBits(seed + 1'000'000))[0]) - 0.5));
+    products.add((toUnitFloat(owenSobol4(7, mixBits(seed))[0]) - 0.5) *
+                 (toUnitFloat(owenSobol4(7, mixBits(seed + 1'000'000))[0]) - 0.5));
   }
   EXPECT_LT(std::abs(zScore(products.mean(), products.meanVariance(), 0, 0)), criticalZ(1));
 }
 
 TEST(PixelSampler, AnyTwoGroupsOfDimensionsArePaddedIndependently) {
-  // Pairs across groups are as even as independent numbers: χ² over passes neither too large nor, as if they were one net, zero.
+  // Pairs across groups are as even as independent numbers: χ² over passes neither too large nor, as if they were one
+  // net, zero.
   for (const PixelSampling sampling : {PixelSampling::kSobol, PixelSampling::kIndependent}) {
     constexpr std::size_t kSide = 8;
     std::vector<std::uint64_t> counts(kSide * kSide);
@@ -121,7 +124,8 @@ TEST(PixelSampler, AnyTwoGroupsOfDimensionsArePaddedIndependently) {
       }
     }
     const ChiSquare test = chiSquareTest(counts, std::vector<double>(counts.size(), 1.0));
-    // Sobol' rows and columns are exactly even, which takes 14 of the 63 degrees of freedom: only the upper tail is tested.
+    // Sobol' rows and columns are exactly even, which takes 14 of the 63 degrees of freedom: only the upper tail is
+    // tested.
     EXPECT_GT(test.p, sidak(kAlpha, 2));
     EXPECT_GT(test.statistic, 10);
   }

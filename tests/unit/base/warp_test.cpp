@@ -80,7 +80,8 @@ TEST(Warp, OctantHasAnEighthOfTheSphere) {
 
 TEST(Warp, SmallSphericalTriangleHasItsPlaneArea) {
   const float e = 1e-3f;
-  const std::array<Vec3, 3> corners{glm::normalize(Vec3(0, 0, 1)), glm::normalize(Vec3(e, 0, 1)), glm::normalize(Vec3(0, e, 1))};
+  const std::array<Vec3, 3> corners{glm::normalize(Vec3(0, 0, 1)), glm::normalize(Vec3(e, 0, 1)),
+                                    glm::normalize(Vec3(0, e, 1))};
   // The curvature changes the area by e², a float's corners by 10⁻⁴ of their distance.
   EXPECT_NEAR(sphericalTriangleArea(corners) / (0.5f * e * e), 1, 2e-4);
 }
@@ -96,8 +97,8 @@ TEST_P(SphericalTriangles, AreSampledUniformly) {
   std::array<Vec3, 3> c = GetParam().corners;
   for (Vec3& v : c) v = glm::normalize(v);
   const float area = sphericalTriangleArea(c);
-  // Uniform if each sub-triangle gets its share. Split by the planes through a corner and points of the opposite edge, and by
-  // distance from that corner: the first is uniform in area by definition of the bins.
+  // Uniform if each sub-triangle gets its share. Split by the planes through a corner and points of the opposite edge,
+  // and by distance from that corner: the first is uniform in area by definition of the bins.
   constexpr int kBins = 12;
   std::vector<double> expected;
   std::vector<Vec3> cuts;
@@ -106,7 +107,8 @@ TEST_P(SphericalTriangles, AreSampledUniformly) {
     cuts.push_back(glm::normalize((1 - t) * c[1] + t * c[2]));
   }
   for (int i = 0; i < kBins; ++i) {
-    expected.push_back(static_cast<double>(sphericalTriangleArea({c[0], cuts[static_cast<std::size_t>(i)], cuts[static_cast<std::size_t>(i) + 1]})));
+    expected.push_back(static_cast<double>(
+        sphericalTriangleArea({c[0], cuts[static_cast<std::size_t>(i)], cuts[static_cast<std::size_t>(i) + 1]})));
   }
   EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0) / static_cast<double>(area), 1, 1e-4);
   for (int rotation = 0; rotation < 3; ++rotation) {  // which corner comes first to the code must not matter
@@ -131,13 +133,14 @@ TEST_P(SphericalTriangles, AreSampledUniformly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, SphericalTriangles,
-                         testing::Values(Spherical{"Octant", {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}},
-                                         Spherical{"Small", {Vec3(0, 0, 1), Vec3(0.15f, 0, 1), Vec3(0, 0.14f, 1)}},
-                                         Spherical{"Sliver", {Vec3(1, 0, 0.02f), Vec3(-1, 0.3f, 0.02f), Vec3(0, 1, 0.05f)}},
-                                         Spherical{"NearlyHemisphere", {Vec3(1, 0, 0.1f), Vec3(-1, 1.7f, 0.2f), Vec3(-1, -1.7f, 0.2f)}},
-                                         Spherical{"Clockwise", {Vec3(0, 1, 1), Vec3(1, 0, 1), Vec3(-1, -1, 1)}}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, SphericalTriangles,
+    testing::Values(Spherical{"Octant", {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}},
+                    Spherical{"Small", {Vec3(0, 0, 1), Vec3(0.15f, 0, 1), Vec3(0, 0.14f, 1)}},
+                    Spherical{"Sliver", {Vec3(1, 0, 0.02f), Vec3(-1, 0.3f, 0.02f), Vec3(0, 1, 0.05f)}},
+                    Spherical{"NearlyHemisphere", {Vec3(1, 0, 0.1f), Vec3(-1, 1.7f, 0.2f), Vec3(-1, -1.7f, 0.2f)}},
+                    Spherical{"Clockwise", {Vec3(0, 1, 1), Vec3(1, 0, 1), Vec3(-1, -1, 1)}}),
+    [](const auto& info) { return info.param.name; });
 
 TEST(Warp, SphericalTriangleWithoutAreaHasNoSamples) {
   EXPECT_FALSE(uniformSphericalTriangle({Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, Vec2(0.5f)));

@@ -32,7 +32,9 @@ struct Sky {
   }
 };
 
-void PrintTo(const Sky& sky, std::ostream* out) { *out << sky.name; }
+void PrintTo(const Sky& sky, std::ostream* out) {
+  *out << sky.name;
+}
 
 const Sky kSkies[] = {
     {"One", 1, 1, [](int, int, Rng&) { return Vec3(2); }},
@@ -42,7 +44,8 @@ const Sky kSkies[] = {
     {"Row", 33, 1, [](int x, int, Rng&) { return Vec3(static_cast<float>(x)); }},
     {"Sun", 64, 32, [](int x, int y, Rng&) { return x == 40 && y == 9 ? Vec3(1e6f) : Vec3(1e-3f); }},
     {"LoneSun", 64, 32, [](int x, int y, Rng&) { return x == 40 && y == 9 ? Vec3(1e6f) : Vec3(0); }},
-    {"PoleAndSeam", 64, 32, [](int x, int y, Rng&) { return y == 0 || y == 31 || x == 0 ? Vec3(50, 5, 1) : Vec3(0.01f); }},
+    {"PoleAndSeam", 64, 32,
+     [](int x, int y, Rng&) { return y == 0 || y == 31 || x == 0 ? Vec3(50, 5, 1) : Vec3(0.01f); }},
     {"Decades", 48, 24, [](int, int, Rng& rng) { return Vec3(std::pow(10.0f, rng.uniform(-5, 5))); }},
 };
 
@@ -107,13 +110,14 @@ TEST_P(Skies, WeightsAreTheEnergyOfTheirTiles) {
     const double polar = std::numbers::pi * (y + 0.5) / kSide;
     for (int x = 0; x < 2 * kSide; ++x) {
       const double azimuth = std::numbers::pi * (x + 0.5) / kSide;
-      const glm::dvec3 direction(std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth));
+      const glm::dvec3 direction(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                 std::sin(polar) * std::sin(azimuth));
       energy += luminance(referenceEnvironment(environment_, direction)) * std::sin(polar);
     }
   }
   energy *= std::numbers::pi / kSide * std::numbers::pi / kSide;
-  // A weight takes the solid angle as even over its texel, which at the poles it is not: up to 4 % where a pole is all there is to see.
-  // The density corrects it.
+  // A weight takes the solid angle as even over its texel, which at the poles it is not: up to 4 % where a pole is all
+  // there is to see. The density corrects it.
   EXPECT_NEAR(sum / energy, 1, 0.05);
 }
 
@@ -145,7 +149,8 @@ TEST_P(Skies, SamplesAreDistributedByTheirDensity) {
     for (std::size_t i = 0; i < perTile; ++i) {
       const float u = rng.uniform();
       const EnvironmentLight::Sample s = light_.sample(tile, {u, rng.uniform()});
-      moments.add(static_cast<double>(luminance(environmentRadiance(environment_, s.direction)) * f(s.direction) / s.pdf));
+      moments.add(
+          static_cast<double>(luminance(environmentRadiance(environment_, s.direction)) * f(s.direction) / s.pdf));
     }
     sum += moments.mean();
     variance += moments.meanVariance();
@@ -227,7 +232,8 @@ TEST(EnvironmentLight, DimTexelBesideABrightOneIsReached) {
   std::size_t tilesOfDim = 0;
   for (int y = 9; y < 11; ++y) {
     for (int x = 9; x < 11; ++x) {
-      const Vec3 d = directionFromLatLong(environment, {(static_cast<float>(x) + 0.5f) / 64, (static_cast<float>(y) + 0.5f) / 32});
+      const Vec3 d =
+          directionFromLatLong(environment, {(static_cast<float>(x) + 0.5f) / 64, (static_cast<float>(y) + 0.5f) / 32});
       const auto tile = light.tileTowards(d);
       ASSERT_TRUE(tile);
       ASSERT_GT(light.pdf(*tile, d), 0);

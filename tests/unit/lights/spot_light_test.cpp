@@ -1,5 +1,4 @@
 #include "renderer/lights/lights.h"
-
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,8 @@ Scene spotScene(float cosInner, float cosOuter) {
 }
 
 TEST(SpotLight, FluxIsTheIntegralOfItsIntensity) {
-  for (const auto& [inner, outer] : {std::pair(0.9f, 0.5f), std::pair(1.0f, 0.0f), std::pair(0.3f, -0.8f), std::pair(0.9999f, 0.9998f)}) {
+  for (const auto& [inner, outer] :
+       {std::pair(0.9f, 0.5f), std::pair(1.0f, 0.0f), std::pair(0.3f, -0.8f), std::pair(0.9999f, 0.9998f)}) {
     const Scene scene = spotScene(inner, outer);
     const Lights lights(scene);
     // At distance 1 the radiance of a delta sample is the intensity.
@@ -25,7 +25,9 @@ TEST(SpotLight, FluxIsTheIntegralOfItsIntensity) {
       const double cosine = 1 + (static_cast<double>(outer) - 1) * (i + 0.5) / kSteps;
       const Vec3 p(glm::dvec3(std::sqrt(1 - cosine * cosine), 0, cosine));
       const auto sample = lights.sample(LightId{0}, p, Vec2(0));
-      if (sample) sum += static_cast<double>(sample->radiance.x) * 2 * std::numbers::pi * (1 - static_cast<double>(outer)) / kSteps;
+      if (sample)
+        sum +=
+            static_cast<double>(sample->radiance.x) * 2 * std::numbers::pi * (1 - static_cast<double>(outer)) / kSteps;
     }
     // Float directions know the cosine to 6e-8, which is 6e-4 of the narrowest ramp.
     EXPECT_NEAR(lights.flux(LightId{0}) / sum, 1, inner > 0.999f ? 1e-3 : 1e-5);
@@ -45,7 +47,9 @@ TEST(SpotLight, IsDarkOutsideItsConeAndAtItself) {
 TEST(SpotLight, FallsOffAsTheExtensionSays) {
   const Scene scene = spotScene(0.8f, 0.4f);
   const Lights lights(scene);
-  const auto at = [&](float cosine) { return lights.sample(LightId{0}, {std::sqrt(1 - cosine * cosine), 0, cosine}, Vec2(0)); };
+  const auto at = [&](float cosine) {
+    return lights.sample(LightId{0}, {std::sqrt(1 - cosine * cosine), 0, cosine}, Vec2(0));
+  };
   EXPECT_NEAR(at(0.9f)->radiance.x, 1, 1e-6);
   EXPECT_NEAR(at(0.6f)->radiance.x, 0.25f, 1e-6);  // half way, squared
   EXPECT_NEAR(at(0.5f)->radiance.x, 0.0625f, 1e-6);

@@ -69,7 +69,8 @@ TEST(TriangleLight, FormFactorIsPositiveAndRightFarAway) {
 class TriangleSampling : public testing::TestWithParam<float> {};
 
 TEST_P(TriangleSampling, MeanOfContributionsIsTheFormFactor) {
-  // So close, points are sampled by area and almost all that they bring comes from a few of them: the integrator's MIS is tested there.
+  // So close, points are sampled by area and almost all that they bring comes from a few of them: the integrator's MIS
+  // is tested there.
   if (GetParam() < 1e-3f) GTEST_SKIP();
   // From area sampling through solid angle to all but a hemisphere.
   const OneTriangle triangle({-0.5f, -0.4f, 0}, {0.6f, -0.3f, 0}, {0.1f, 0.7f, 0});
@@ -84,7 +85,8 @@ TEST_P(TriangleSampling, MeanOfContributionsIsTheFormFactor) {
     }
     const double expected = triangleFormFactor(triangle.geometry, p, n);
     // 10⁻⁴: what the solid angle of three float directions is right to (triangle_light.cpp).
-    EXPECT_LT(std::abs(zScore(moments.mean(), moments.meanVariance(), expected, 1e-8 * expected * expected)), criticalZ(16))
+    EXPECT_LT(std::abs(zScore(moments.mean(), moments.meanVariance(), expected, 1e-8 * expected * expected)),
+              criticalZ(16))
         << moments.mean() << " against " << expected;
   }
 }
@@ -123,11 +125,13 @@ TEST_P(TriangleSampling, PdfIsThatOfTheSample) {
     const auto point = sampleTriangle(triangle.geometry, p, {u, rng.uniform()});
     ASSERT_TRUE(point);
     ASSERT_NEAR(point->pdf / trianglePdf(triangle.geometry, p, point->position), 1, 1e-5);
-    ASSERT_GE(std::min({point->barycentric.x, point->barycentric.y, 1 - point->barycentric.x - point->barycentric.y}), -1e-6f);
+    ASSERT_GE(std::min({point->barycentric.x, point->barycentric.y, 1 - point->barycentric.x - point->barycentric.y}),
+              -1e-6f);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Distances, TriangleSampling, testing::Values(1e-4f, 1e-2f, 0.1f, 1.0f, 5.0f, 9.0f, 100.0f, 1e4f));
+INSTANTIATE_TEST_SUITE_P(Distances, TriangleSampling,
+                         testing::Values(1e-4f, 1e-2f, 0.1f, 1.0f, 5.0f, 9.0f, 100.0f, 1e4f));
 
 TEST(TriangleLight, EdgesOfTheUnitSquareGiveSamples) {
   const OneTriangle triangle({-0.5f, -0.4f, 0}, {0.6f, -0.3f, 0}, {0.1f, 0.7f, 0});
@@ -160,11 +164,13 @@ TEST(TriangleLight, ScalesExactlyByPowersOfTwo) {
     const OneTriangle scaled(Vec3(0), scale * Vec3(1, 0.1f, 0), scale * Vec3(0.2f, 1, 0.3f));
     for (const float distance : {0.1f, 2.0f, 60.0f}) {
       const Vec3 p(0.2f, 0.3f, -distance);
-      const auto a = one.lights->sample(LightId{0}, p, {0.3f, 0.8f}), b = scaled.lights->sample(LightId{0}, scale * p, {0.3f, 0.8f});
+      const auto a = one.lights->sample(LightId{0}, p, {0.3f, 0.8f}),
+                 b = scaled.lights->sample(LightId{0}, scale * p, {0.3f, 0.8f});
       ASSERT_TRUE(a && b);
       EXPECT_EQ(a->wi, b->wi);
       EXPECT_EQ(a->pdf, b->pdf);
-      EXPECT_EQ(one.lights->irradiance(LightId{0}, p, {0, 0, 1}), scaled.lights->irradiance(LightId{0}, scale * p, {0, 0, 1}));
+      EXPECT_EQ(one.lights->irradiance(LightId{0}, p, {0, 0, 1}),
+                scaled.lights->irradiance(LightId{0}, scale * p, {0, 0, 1}));
     }
   }
 }

@@ -13,7 +13,8 @@
 namespace cellcut::test {
 namespace {
 
-/// Share of [0, 1) that leads to each index: where a bin changes from its own index to its alias is found by bisection on u.
+/// Share of [0, 1) that leads to each index: where a bin changes from its own index to its alias is found by bisection
+/// on u.
 std::vector<double> sharesOf(const AliasTable& table, std::size_t n) {
   std::vector<double> shares(n);
   const double width = 1 / static_cast<double>(n);

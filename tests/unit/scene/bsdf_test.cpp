@@ -82,7 +82,8 @@ TEST(Bsdf, IsReciprocal) {
   for (const auto& [name, material] : materials()) {
     const Bsdf bsdf = bsdfOf(material);
     for (int i = 0; i < 200; ++i) {
-      const Vec3 a = direction(rng.uniform(0.02f, 1), rng.uniform(0, 6)), b = direction(rng.uniform(0.02f, 1), rng.uniform(0, 6));
+      const Vec3 a = direction(rng.uniform(0.02f, 1), rng.uniform(0, 6)),
+                 b = direction(rng.uniform(0.02f, 1), rng.uniform(0, 6));
       const float there = bsdf.eval(a, b).y, back = bsdf.eval(b, a).y;
       // Roundings of the half vector, relative to a lobe at least 10⁻³ wide.
       ASSERT_NEAR(there, back, 1e-4f * (there + back)) << name;
@@ -134,7 +135,8 @@ TEST(Bsdf, SampleCarriesWhatEvalAndPdfSay) {
 }
 
 TEST(Bsdf, SamplesAreDistributedByThePdf) {
-  // Bins over the hemisphere, even in azimuth and cosine, the density integrated in each; the share below the horizon gives no sample.
+  // Bins over the hemisphere, even in azimuth and cosine, the density integrated in each; the share below the horizon
+  // gives no sample.
   constexpr int kRows = 10, kColumns = 20, kCells = 32;
   std::vector<std::pair<std::string, Material>> broad;
   for (auto& m : materials()) {
@@ -151,7 +153,8 @@ TEST(Bsdf, SamplesAreDistributedByThePdf) {
           const Vec3 wi = direction((static_cast<float>(y) + 0.5f) / (kRows * kCells),
                                     2 * kPi * (static_cast<float>(x) + 0.5f) / (kColumns * kCells));
           const double cell = 2 * std::numbers::pi / (kRows * kCells) / (kColumns * kCells);
-          expected[static_cast<std::size_t>((y / kCells) * kColumns + x / kCells)] += static_cast<double>(bsdf.pdf(wo, wi)) * cell;
+          expected[static_cast<std::size_t>((y / kCells) * kColumns + x / kCells)] +=
+              static_cast<double>(bsdf.pdf(wo, wi)) * cell;
         }
       }
       double inside = 0;
@@ -180,8 +183,8 @@ TEST(Bsdf, SamplesAreDistributedByThePdf) {
         expected.pop_back();
       }
       const ChiSquare test = chiSquareTest(counts, expected);
-      EXPECT_GT(test.p, sidak(kAlpha, 3 * broad.size())) << name << " at cosine " << cosine << ", chi square " << test.statistic
-                                                         << " of " << test.degreesOfFreedom;
+      EXPECT_GT(test.p, sidak(kAlpha, 3 * broad.size()))
+          << name << " at cosine " << cosine << ", chi square " << test.statistic << " of " << test.degreesOfFreedom;
     }
   }
 }

@@ -55,7 +55,8 @@ TEST(Accel, ARayDoesNotMeetThePlaneItStartsOn) {
       for (int i = 0; i < 1000; ++i) {
         const Vec3 p = rng.uniform(-0.4f, 0.4f) * u + rng.uniform(-0.4f, 0.4f) * v;
         const Vec3 direction = unitVector(rng);
-        const Vec3 origin = offsetRayOrigin(p, triangleError(-0.5f * (u + v), 0.5f * (u - v), 0.5f * (u + v)), n, direction);
+        const Vec3 origin =
+            offsetRayOrigin(p, triangleError(-0.5f * (u + v), 0.5f * (u - v), 0.5f * (u + v)), n, direction);
         ASSERT_FALSE(accel.occluded({origin, direction}, 0)) << "axis " << axis << ", size " << size;
         ASSERT_FALSE(accel.intersect({origin, direction}, 0)) << "axis " << axis << ", size " << size;
       }
@@ -98,7 +99,8 @@ TEST(Accel, MaskIsAllOrNothing) {
     mask.alphaMode = AlphaMode::kMask;
     addQuad(scene, addMaterial(scene, mask), {-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
     const Accel accel(scene);
-    for (std::uint32_t seed = 0; seed < 100; ++seed) EXPECT_EQ(accel.occluded({Vec3(0.1f, 0.3f, 0), {0, 0, 1}}, seed), hits);
+    for (std::uint32_t seed = 0; seed < 100; ++seed)
+      EXPECT_EQ(accel.occluded({Vec3(0.1f, 0.3f, 0), {0, 0, 1}}, seed), hits);
   }
 }
 
@@ -119,11 +121,12 @@ TEST(Accel, NothingLeaksThroughSharedEdges) {
       const bool atVertex = i % 8 == 0;
       const float s = atVertex ? 0.0f : rng.uniform();
       const Vec3 origin = 0.3f * scale * unitVector(rng);
-      if (!accel.intersect({origin, glm::normalize((1 - s) * a + s * b - origin)}, 0)) ++(atVertex ? leaksAtVertices : leaks);
+      if (!accel.intersect({origin, glm::normalize((1 - s) * a + s * b - origin)}, 0))
+        ++(atVertex ? leaksAtVertices : leaks);
     }
     EXPECT_EQ(leaks, 0u) << "scale " << scale;
-    // Embree's edge tests are watertight, the fans of six around a vertex are not: 10⁻⁴ of rays at the very float of a vertex, which
-    // no camera aims at.
+    // Embree's edge tests are watertight, the fans of six around a vertex are not: 10⁻⁴ of rays at the very float of a
+    // vertex, which no camera aims at.
     EXPECT_LT(static_cast<double>(leaksAtVertices), 1e-3 * static_cast<double>(rays)) << "scale " << scale;
   }
 }
@@ -136,7 +139,8 @@ struct Placement {
 class RayOrigins : public testing::TestWithParam<Placement> {};
 
 TEST_P(RayOrigins, NeitherMeetTheirOwnSurfaceNorLeaveTheRoom) {
-  // A closed room with a ball in it. From every hit a ray goes on: it may not find the triangle that it left, and may not escape.
+  // A closed room with a ball in it. From every hit a ray goes on: it may not find the triangle that it left, and may
+  // not escape.
   const auto [scale, offset] = GetParam();
   const Vec3 at = scale * offset * glm::normalize(Vec3(1, 0.7f, -0.4f));
   Scene scene;
@@ -155,7 +159,8 @@ TEST_P(RayOrigins, NeitherMeetTheirOwnSurfaceNorLeaveTheRoom) {
     const auto hit = accel.intersect(ray, 0);
     ++total;
     if (!hit) {
-      const bool strictlyInside = glm::all(glm::lessThan(lower, ray.origin)) && glm::all(glm::lessThan(ray.origin, upper));
+      const bool strictlyInside =
+          glm::all(glm::lessThan(lower, ray.origin)) && glm::all(glm::lessThan(ray.origin, upper));
       ++(strictlyInside ? escapes : outside);
       ray = {at + scale * Vec3(0.7f, 0.6f, 0.5f), unitVector(rng)};
       from.reset();
@@ -170,13 +175,15 @@ TEST_P(RayOrigins, NeitherMeetTheirOwnSurfaceNorLeaveTheRoom) {
     Vec3 direction = Frame(normal).toWorld(cosineHemisphere({rng.uniform(), rng.uniform()}));
     // One in eight grazes.
     if (rng.below(8) == 0) direction = glm::normalize(direction - 0.9999f * glm::dot(direction, normal) * normal);
-    ray = {offsetRayOrigin(p, triangleError(g.corners[0], g.corners[1], g.corners[2]), normal, direction), glm::normalize(direction)};
+    ray = {offsetRayOrigin(p, triangleError(g.corners[0], g.corners[1], g.corners[2]), normal, direction),
+           glm::normalize(direction)};
     from = hit;
   }
   EXPECT_EQ(selfHits, 0u) << "of " << total;
   EXPECT_EQ(escapes, 0u) << "of " << total;
   // In a corner the point itself may be rounded into the wall: as often as it is within a float's spacing of it.
-  const double spacing = static_cast<double>(std::nextafter(glm::length(at) + scale, kInfinity) - (glm::length(at) + scale)) / scale;
+  const double spacing =
+      static_cast<double>(std::nextafter(glm::length(at) + scale, kInfinity) - (glm::length(at) + scale)) / scale;
   EXPECT_LE(static_cast<double>(outside), 1 + 4 * spacing * static_cast<double>(total));
 }
 
