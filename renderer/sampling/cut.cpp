@@ -68,46 +68,85 @@ Cluster distantCluster(const LightTree& tree, NodeId id) {
   return {id, true, node.intensity(), -axes.axis, axes.cosTheta, axes.sinTheta};
 }
 
-void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut) {
-  // [0, open) is a heap of clusters that may be split, the rest are lights.
-  cut.clear();
-  std::vector<Cluster> leaves;
-  double sum = 0;
-  const auto below = [](const Cluster& a, const Cluster& b) {
-    // Equal estimates are told apart, so that the cut does not depend on the history of the heap.
-    return a.estimate != b.estimate ? a.estimate < b.estimate
-                                    : std::pair(a.distant, a.node) > std::pair(b.distant, b.node);
-  };
-  const auto add = [&](const LightTree& tree, bool distant, NodeId node) {
-    const std::optional<Cluster> cluster =
-        distant ? std::optional(distantCluster(tree, node)) : localCluster(tree, node, region);
-    if (!cluster) return;
-    sum += static_cast<double>(cluster->estimate);
-    if (tree.isLeaf(node)) {
-      leaves.push_back(*cluster);
-    } else {
-      cut.push_back(*cluster);
-      std::push_heap(cut.begin(), cut.end(), below);
+namespace {
+
+/// The search's state: all clusters seen so far, a heap of those that may still be split, and those that are lights.
+class CutSearch {
+ public:
+  CutSearch(const LightTrees& trees, const Region& region, const CutSettings& settings)
+      : trees_(trees), region_(region), settings_(settings) {
+    const auto most = 2 * static_cast<std::size_t>(settings.maxSize);
+    seen_.reserve(most);
+    open_.reserve(most);
+    if (!trees.local.empty()) add(false, trees.local.root());
+    if (!trees.distant.empty()) add(true, trees.distant.root());
+  }
+
+  void refine() {
+    const auto maxSize = static_cast<std::size_t>(settings_.maxSize);
+    while (!open_.empty() && open_.size() + leaves_.size() < maxSize &&
+           static_cast<double>(open_.front().estimate) > static_cast<double>(settings_.threshold) * sum_) {
+      std::pop_heap(open_.begin(), open_.end());
+      const Cluster parent = seen_[open_.back().cluster];
+      open_.pop_back();
+      sum_ -= static_cast<double>(parent.estimate);
+      const LightTree& tree = parent.distant ? trees_.distant : trees_.local;
+      add(parent.distant, tree.left(parent.node));
+      add(parent.distant, tree.right(parent.node));
+    }
+  }
+
+  void take(std::vector<Cluster>& cut) const {
+    cut.clear();
+    for (const Candidate& c : open_) cut.push_back(seen_[c.cluster]);
+    for (const std::uint32_t leaf : leaves_) cut.push_back(seen_[leaf]);
+    std::sort(cut.begin(), cut.end(), [](const Cluster& a, const Cluster& b) {
+      // Nodes are numbered in depth-first order, and no node of a cut is inside another.
+      return std::pair(a.distant, a.node) < std::pair(b.distant, b.node);
+    });
+  }
+
+ private:
+  struct Candidate {
+    float estimate;
+    std::uint32_t cluster;
+    /// Equal estimates are told apart, so that the cut does not depend on how a heap is built.
+    bool operator<(const Candidate& other) const {
+      return estimate != other.estimate ? estimate < other.estimate : cluster > other.cluster;
     }
   };
-  if (!trees.local.empty()) add(trees.local, false, trees.local.root());
-  if (!trees.distant.empty()) add(trees.distant, true, trees.distant.root());
-  const auto maxSize = static_cast<std::size_t>(settings.maxSize);
-  while (!cut.empty() && cut.size() + leaves.size() < maxSize &&
-         static_cast<double>(cut.front().estimate) > static_cast<double>(settings.threshold) * sum) {
-    std::pop_heap(cut.begin(), cut.end(), below);
-    const Cluster parent = cut.back();
-    cut.pop_back();
-    sum -= static_cast<double>(parent.estimate);
-    const LightTree& tree = parent.distant ? trees.distant : trees.local;
-    add(tree, parent.distant, tree.left(parent.node));
-    add(tree, parent.distant, tree.right(parent.node));
+
+  void add(bool distant, NodeId node) {
+    const LightTree& tree = distant ? trees_.distant : trees_.local;
+    const std::optional<Cluster> cluster =
+        distant ? std::optional(distantCluster(tree, node)) : localCluster(tree, node, region_);
+    if (!cluster) return;
+    const auto index = static_cast<std::uint32_t>(seen_.size());
+    seen_.push_back(*cluster);
+    sum_ += static_cast<double>(cluster->estimate);
+    if (tree.isLeaf(node)) {
+      leaves_.push_back(index);
+    } else {
+      open_.push_back({cluster->estimate, index});
+      std::push_heap(open_.begin(), open_.end());
+    }
   }
-  cut.insert(cut.end(), leaves.begin(), leaves.end());
-  std::sort(cut.begin(), cut.end(), [](const Cluster& a, const Cluster& b) {
-    // Nodes are numbered in depth-first order, and no node of a cut is inside another.
-    return std::pair(a.distant, a.node) < std::pair(b.distant, b.node);
-  });
+
+  const LightTrees& trees_;
+  const Region& region_;
+  const CutSettings& settings_;
+  std::vector<Cluster> seen_;
+  std::vector<Candidate> open_;
+  std::vector<std::uint32_t> leaves_;
+  double sum_ = 0;
+};
+
+}  // namespace
+
+void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut) {
+  CutSearch search(trees, region, settings);
+  search.refine();
+  search.take(cut);
 }
 
 Cut::Cut(const LightTrees& trees, const std::vector<Cluster>& clusters) : clusters_(clusters.size()) {
