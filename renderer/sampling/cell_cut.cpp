@@ -21,7 +21,7 @@ Cut CellCutSampler::makeCut(const Region& region) const {
   const Clock::time_point start = Clock::now();
   std::vector<Cluster> clusters;
   findCut(trees_, region, {settings_.threshold, settings_.maxCut}, clusters);
-  Cut cut(trees_, clusters);
+  Cut cut(trees_, region, clusters);
   const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
   makeNanoseconds_.fetch_add(static_cast<std::uint64_t>(elapsed.count()), std::memory_order_relaxed);
   return cut;

@@ -5,13 +5,9 @@
 namespace cellcut {
 namespace {
 
-/// A smooth mean distance between two spheres whose centres are D apart: 0.75 ρ at D = 0, D far away.
-/// \param rho  √(r² + r_C²)
-float meanDistance(float distance, float rho) {
-  if (rho == 0) return distance;
-  const float q = rho / (distance + 1.1547f * rho);
-  return distance + rho * q * q;
-}
+/// A cluster is near when the cell's radius is more than this share of their mean distance: then its distance and the
+/// side that it shows vary over the cell.
+constexpr float kNearShare = 0.3f;
 
 }  // namespace
 
@@ -37,7 +33,7 @@ std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Regi
   const float distance = glm::length(toCluster);
   const float reach = region.radius + clusterRadius;
 
-  Cluster cluster{id, false, 0, Vec3(0, 0, 1), -1, 0};
+  Cluster cluster{id, false, 0, 0, Vec3(0, 0, 1), -1, 0};
   float cosine = 1;
   if (reach < distance) {
     cluster.direction = toCluster / distance;
@@ -55,6 +51,7 @@ std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Regi
   }
   const float rho = std::sqrt(region.radius * region.radius + clusterRadius * clusterRadius);
   const float mean = meanDistance(distance, rho);
+  cluster.meanDistance = mean;
   // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
   cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, std::numeric_limits<float>::max())
                               : node.intensity();
@@ -65,7 +62,7 @@ std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Regi
 Cluster distantCluster(const LightTree& tree, NodeId id) {
   const LightTreeNode& node = tree.node(id);
   const Cone axes = node.axes();
-  return {id, true, node.intensity(), -axes.axis, axes.cosTheta, axes.sinTheta};
+  return {id, true, node.intensity(), kInfinity, -axes.axis, axes.cosTheta, axes.sinTheta};
 }
 
 namespace {
@@ -149,37 +146,71 @@ void findCut(const LightTrees& trees, const Region& region, const CutSettings& s
   search.take(cut);
 }
 
-Cut::Cut(const LightTrees& trees, const std::vector<Cluster>& clusters) : clusters_(clusters.size()) {
-  nodes_.reserve(clusters.size());
-  firstLeaf_.reserve(clusters.size());
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const Cluster& c = clusters[i];
-    clusters_.field(ClusterArrays::kEstimate)[i] = c.estimate;
-    clusters_.field(ClusterArrays::kDirectionX)[i] = c.direction.x;
-    clusters_.field(ClusterArrays::kDirectionY)[i] = c.direction.y;
-    clusters_.field(ClusterArrays::kDirectionZ)[i] = c.direction.z;
-    clusters_.field(ClusterArrays::kCosThetaU)[i] = c.cosThetaU;
-    clusters_.field(ClusterArrays::kSinThetaU)[i] = c.sinThetaU;
-    nodes_.push_back(c.node);
-    const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
-    firstLeaf_.push_back(c.distant ? localLeaves + trees.distant.node(c.node).firstLeaf()
-                                   : trees.local.node(c.node).firstLeaf());
-    if (!c.distant) ++localCount_;
+Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters) {
+  const auto isNear = [&](const Cluster& c) { return !c.distant && region.radius > kNearShare * c.meanDistance; };
+  const auto nearCount = static_cast<std::size_t>(std::count_if(clusters.begin(), clusters.end(), isNear));
+  clusters_.far = BlockedFloats(clusters.size() - nearCount, ClusterArrays::kFarFields);
+  clusters_.near = BlockedFloats(nearCount, ClusterArrays::kNearFields);
+  members_.reserve(clusters.size());
+  memberOfSlot_.resize(clusters_.blocks() * kClusterBlock);
+  const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
+  std::size_t far = 0, near = 0;
+  for (const Cluster& c : clusters) {
+    const LightTreeNode& node = (c.distant ? trees.distant : trees.local).node(c.node);
+    std::size_t slot;
+    if (isNear(c)) {
+      slot = clusters_.nearSlot(near);
+      cacheNear(node, near++);
+    } else {
+      slot = far;
+      cacheFar(c, far++);
+    }
+    memberOfSlot_[slot] = static_cast<std::uint16_t>(members_.size());
+    members_.push_back(
+        {c.node, c.distant, node.firstLeaf() + (c.distant ? localLeaves : 0), static_cast<std::uint32_t>(slot)});
   }
 }
 
-std::optional<std::size_t> Cut::clusterOf(const LightTrees& trees, std::uint32_t leaf) const {
-  const auto after = std::upper_bound(firstLeaf_.begin(), firstLeaf_.end(), leaf);
-  if (after == firstLeaf_.begin()) return std::nullopt;
-  const auto cluster = static_cast<std::size_t>(after - firstLeaf_.begin()) - 1;
-  const LightTree& tree = isDistant(cluster) ? trees.distant : trees.local;
-  if (leaf - firstLeaf_[cluster] >= tree.node(nodes_[cluster]).leafCount()) return std::nullopt;
-  return cluster;
+void Cut::cacheFar(const Cluster& c, std::size_t i) {
+  const auto set = [&](ClusterArrays::FarField field, float value) { clusters_.far.field(field)[i] = value; };
+  set(ClusterArrays::kEstimate, c.estimate);
+  set(ClusterArrays::kDirectionX, c.direction.x);
+  set(ClusterArrays::kDirectionY, c.direction.y);
+  set(ClusterArrays::kDirectionZ, c.direction.z);
+  set(ClusterArrays::kCosThetaU, c.cosThetaU);
+  set(ClusterArrays::kSinThetaU, c.sinThetaU);
+}
+
+void Cut::cacheNear(const LightTreeNode& node, std::size_t i) {
+  const auto set = [&](ClusterArrays::NearField field, float value) { clusters_.near.field(field)[i] = value; };
+  const Vec3 centre = 0.5f * node.upper() + 0.5f * node.lower();
+  const Cone axes = node.axes();
+  set(ClusterArrays::kCentreX, centre.x);
+  set(ClusterArrays::kCentreY, centre.y);
+  set(ClusterArrays::kCentreZ, centre.z);
+  set(ClusterArrays::kRadius, glm::length(0.5f * node.upper() - 0.5f * node.lower()));
+  set(ClusterArrays::kIntensity, node.intensity());
+  set(ClusterArrays::kAxisX, axes.axis.x);
+  set(ClusterArrays::kAxisY, axes.axis.y);
+  set(ClusterArrays::kAxisZ, axes.axis.z);
+  set(ClusterArrays::kCosThetaO, axes.cosTheta);
+  set(ClusterArrays::kSinThetaO, axes.sinTheta);
+  set(ClusterArrays::kCosThetaE, node.cosThetaE());
+  set(ClusterArrays::kTwoSided, node.twoSided() ? 1.0f : 0.0f);
+}
+
+const Cut::Member* Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {
+  const auto after = std::upper_bound(members_.begin(), members_.end(), leaf,
+                                      [](std::uint32_t l, const Member& m) { return l < m.firstLeaf; });
+  if (after == members_.begin()) return nullptr;
+  const Member& member = *(after - 1);
+  const LightTree& tree = member.distant ? trees.distant : trees.local;
+  return leaf - member.firstLeaf < tree.node(member.node).leafCount() ? &member : nullptr;
 }
 
 std::size_t Cut::bytes() const {
-  return sizeof(Cut) + clusters_.bytes() + nodes_.capacity() * sizeof(NodeId) +
-         firstLeaf_.capacity() * sizeof(std::uint32_t);
+  return sizeof(Cut) + clusters_.far.bytes() + clusters_.near.bytes() + members_.capacity() * sizeof(Member) +
+         memberOfSlot_.capacity() * sizeof(std::uint16_t);
 }
 
 }  // namespace cellcut

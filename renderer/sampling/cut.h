@@ -49,6 +49,7 @@ struct Cluster {
   NodeId node;
   bool distant;                ///< of the distant tree
   float estimate;              ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
+  float meanDistance;          ///< metres; infinite for distant clusters
   Vec3 direction;              ///< unit, from the region to the cluster
   float cosThetaU, sinThetaU;  ///< all directions from the region to the cluster are within θu of `direction`
 };
@@ -66,22 +67,33 @@ void findCut(const LightTrees& trees, const Region& region, const CutSettings& s
 class Cut {
  public:
   Cut() = default;
-  Cut(const LightTrees& trees, const std::vector<Cluster>& clusters);
+  /// \param region  that the clusters were found for
+  Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters);
 
-  std::size_t size() const { return clusters_.size; }
+  std::size_t size() const { return members_.size(); }
   const ClusterArrays& clusters() const { return clusters_; }
-  NodeId node(std::size_t cluster) const { return nodes_[cluster]; }
-  bool isDistant(std::size_t cluster) const { return cluster >= localCount_; }
-  /// The cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped or belongs to no
-  /// cluster.
-  std::optional<std::size_t> clusterOf(const LightTrees& trees, std::uint32_t leaf) const;
+
+  /// A cluster of the cut, in the order of its leaves.
+  struct Member {
+    NodeId node;
+    bool distant;
+    std::uint32_t firstLeaf;  ///< numbered through both trees
+    std::uint32_t slot;       ///< of its weight
+  };
+  const std::vector<Member>& members() const { return members_; }
+  /// \pre the slot is one of a cluster and not of padding
+  const Member& memberAt(std::size_t slot) const { return members_[memberOfSlot_[slot]]; }
+  /// The cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped.
+  const Member* memberOf(const LightTrees& trees, std::uint32_t leaf) const;
   std::size_t bytes() const;
 
  private:
+  void cacheFar(const Cluster& cluster, std::size_t i);
+  void cacheNear(const LightTreeNode& node, std::size_t i);
+
   ClusterArrays clusters_;
-  std::vector<NodeId> nodes_;
-  std::vector<std::uint32_t> firstLeaf_;
-  std::size_t localCount_ = 0;
+  std::vector<Member> members_;
+  std::vector<std::uint16_t> memberOfSlot_;
 };
 
 }  // namespace cellcut

@@ -10,11 +10,12 @@ constexpr double kAlmostOne = 1 - 0x1p-53;
 
 /// Weights of a cut at a point; on the stack, no allocation.
 struct Weights {
-  alignas(64) std::array<float, static_cast<std::size_t>(kMaxCutSize)> weight;
-  std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock> blockSum;
+  alignas(64) std::array<float, static_cast<std::size_t>(kMaxCutSize) + 2 * kClusterBlock> weight;
+  std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock + 2> blockSum;
   double sum;
 
-  Weights(const Cut& cut, const Vec3& n) : sum(clusterWeights(cut.clusters(), n, weight.data(), blockSum.data())) {
+  Weights(const Cut& cut, const ShadingPoint& point)
+      : sum(clusterWeights(cut.clusters(), point.p, point.n, weight.data(), blockSum.data())) {
     assert(cut.size() <= weight.size());
   }
 };
@@ -97,13 +98,14 @@ double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Shad
 std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster,
                                       const ShadingPoint& point, double u) {
   if (cut.size() == 0) return std::nullopt;
-  const Weights w(cut, point.n);
+  const Weights w(cut, point);
   if (!(w.sum > 0)) return std::nullopt;
-  const std::size_t cluster = chooseCluster(w, cut.clusters().blocks(), u);
-  const double pmf = static_cast<double>(w.weight[cluster]) / w.sum;
-  const bool distant = cut.isDistant(cluster);
+  const std::size_t slot = chooseCluster(w, cut.clusters().blocks(), u);
+  const double pmf = static_cast<double>(w.weight[slot]) / w.sum;
+  const Cut::Member& member = cut.memberAt(slot);
+  const NodeId node = member.node;
+  const bool distant = member.distant;
   const LightTree& tree = treeOf(trees, distant);
-  const NodeId node = cut.node(cluster);
   if (inCluster == InCluster::kDescent) {
     const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, point, u);
     if (!leaf) return std::nullopt;
@@ -120,12 +122,12 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, con
   const std::uint32_t leaf = tree.leafOf(light);
   if (leaf == LightTree::kNoLeaf) return 0;
   const auto offset = distant ? static_cast<std::uint32_t>(trees.local.leafCount()) : 0u;
-  const std::optional<std::size_t> cluster = cut.clusterOf(trees, leaf + offset);
-  if (!cluster) return 0;
-  const Weights w(cut, point.n);
+  const Cut::Member* member = cut.memberOf(trees, leaf + offset);
+  if (!member) return 0;
+  const Weights w(cut, point);
   if (!(w.sum > 0)) return 0;
-  const double pmf = static_cast<double>(w.weight[*cluster]) / w.sum;
-  const NodeId node = cut.node(*cluster);
+  const double pmf = static_cast<double>(w.weight[member->slot]) / w.sum;
+  const NodeId node = member->node;
   const double inside = inCluster == InCluster::kDescent ? pmfByDescent(tree, distant, node, point, leaf)
                                                          : tree.pmfByIntensity(node, leaf);
   return static_cast<float>(pmf * inside);

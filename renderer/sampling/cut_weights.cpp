@@ -12,36 +12,93 @@ namespace cellcut::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-double clusterWeightsSimd(const ClusterArrays& clusters, const Vec3& n, float* HWY_RESTRICT weights,
-                          float* HWY_RESTRICT blockSums) {
-  const hn::CappedTag<float, kClusterBlock> d;
-  const std::size_t lanes = hn::Lanes(d);
-  const float* HWY_RESTRICT estimate = clusters.field(ClusterArrays::kEstimate);
-  const float* HWY_RESTRICT x = clusters.field(ClusterArrays::kDirectionX);
-  const float* HWY_RESTRICT y = clusters.field(ClusterArrays::kDirectionY);
-  const float* HWY_RESTRICT z = clusters.field(ClusterArrays::kDirectionZ);
-  const float* HWY_RESTRICT cosU = clusters.field(ClusterArrays::kCosThetaU);
-  const float* HWY_RESTRICT sinU = clusters.field(ClusterArrays::kSinThetaU);
-  const auto nx = hn::Set(d, n.x), ny = hn::Set(d, n.y), nz = hn::Set(d, n.z);
-  const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), margin = hn::Set(d, kCosineMargin);
+using Tag = hn::CappedTag<float, kClusterBlock>;
+using Floats = hn::Vec<Tag>;
+constexpr Tag kTag;
 
+struct Floats3 {
+  Floats x, y, z;
+};
+
+Floats dot(const Floats3& a, const Floats3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+Floats sineOf(Floats cosine) {
+  return hn::Sqrt(hn::Max(hn::Zero(kTag), hn::NegMulAdd(cosine, cosine, hn::Set(kTag, 1.0f))));
+}
+
+Floats receiverCosines(Floats cosTheta, Floats cosU, Floats sinU) {
+  const auto bound = hn::MulAdd(cosTheta, cosU, hn::MulAdd(sineOf(cosTheta), sinU, hn::Set(kTag, kCosineMargin)));
+  return hn::IfThenElse(hn::Ge(cosTheta, cosU), hn::Set(kTag, 1.0f), hn::Max(hn::Zero(kTag), bound));
+}
+
+Floats farWeights(const BlockedFloats& far, std::size_t i, const Floats3& n) {
+  const auto load = [&](std::size_t field) { return hn::Load(kTag, far.field(field) + i); };
+  const Floats3 direction{load(ClusterArrays::kDirectionX), load(ClusterArrays::kDirectionY),
+                          load(ClusterArrays::kDirectionZ)};
+  const auto cosine =
+      receiverCosines(dot(n, direction), load(ClusterArrays::kCosThetaU), load(ClusterArrays::kSinThetaU));
+  return hn::Mul(cosine, load(ClusterArrays::kEstimate));
+}
+
+/// localCluster() of cut.cpp for a region of radius 0, times receiverCosine.
+Floats nearWeights(const BlockedFloats& near, std::size_t i, const Floats3& p, const Floats3& n) {
+  const auto load = [&](std::size_t field) { return hn::Load(kTag, near.field(field) + i); };
+  const auto one = hn::Set(kTag, 1.0f), zero = hn::Zero(kTag), margin = hn::Set(kTag, kCosineMargin);
+  const Floats3 to{hn::Sub(load(ClusterArrays::kCentreX), p.x), hn::Sub(load(ClusterArrays::kCentreY), p.y),
+                   hn::Sub(load(ClusterArrays::kCentreZ), p.z)};
+  const auto distance = hn::Sqrt(dot(to, to));
+  const auto radius = load(ClusterArrays::kRadius);
+  const auto inside = hn::Ge(radius, distance);
+  const auto perDistance = hn::Div(one, hn::IfThenElse(inside, one, distance));
+  const Floats3 direction{hn::Mul(to.x, perDistance), hn::Mul(to.y, perDistance), hn::Mul(to.z, perDistance)};
+  const auto sinU = hn::Mul(radius, perDistance);
+  const auto cosU = sineOf(sinU);
+
+  const Floats3 axis{load(ClusterArrays::kAxisX), load(ClusterArrays::kAxisY), load(ClusterArrays::kAxisZ)};
+  const auto towards = hn::Neg(dot(axis, direction));
+  const auto cosTheta = hn::IfThenElse(hn::Gt(load(ClusterArrays::kTwoSided), zero), hn::Abs(towards), towards);
+  const auto sinTheta = sineOf(cosTheta);
+  const auto cosO = load(ClusterArrays::kCosThetaO), sinO = load(ClusterArrays::kSinThetaO);
+  const auto withinAxes = hn::Ge(cosTheta, cosO);
+  const auto cosPast = hn::IfThenElse(withinAxes, one, hn::MulAdd(cosTheta, cosO, hn::Mul(sinTheta, sinO)));
+  const auto sinPast = hn::IfThenElse(withinAxes, zero, hn::NegMulAdd(cosTheta, sinO, hn::Mul(sinTheta, cosO)));
+  const auto cosEmit = hn::IfThenElse(hn::Ge(cosPast, cosU), one, hn::MulAdd(cosPast, cosU, hn::Mul(sinPast, sinU)));
+  const auto reaches = hn::Ge(cosEmit, hn::Sub(load(ClusterArrays::kCosThetaE), margin));
+  const auto emission = hn::IfThenElseZero(reaches, hn::Max(cosEmit, margin));
+
+  const auto receiver = receiverCosines(dot(n, direction), cosU, sinU);
+  const auto factor = hn::IfThenElse(inside, one, hn::Mul(emission, receiver));
+  const auto q = hn::Div(radius, hn::Max(hn::MulAdd(hn::Set(kTag, 1.1547f), radius, distance),
+                                         hn::Set(kTag, std::numeric_limits<float>::min())));
+  const auto mean = hn::MulAdd(hn::Mul(radius, q), q, distance);
+  const auto scale = hn::IfThenElse(hn::Gt(mean, zero), mean, one);
+  return hn::Div(hn::Div(hn::Mul(load(ClusterArrays::kIntensity), factor), scale), scale);
+}
+
+double clusterWeightsSimd(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* HWY_RESTRICT weights,
+                          float* HWY_RESTRICT blockSums) {
+  const std::size_t lanes = hn::Lanes(kTag);
+  const Floats3 point{hn::Set(kTag, p.x), hn::Set(kTag, p.y), hn::Set(kTag, p.z)};
+  const Floats3 normal{hn::Set(kTag, n.x), hn::Set(kTag, n.y), hn::Set(kTag, n.z)};
   double sum = 0;
-  for (std::size_t block = 0; block < clusters.blocks(); ++block) {
-    auto blockSum = zero;
-    for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; i += lanes) {
-      const auto cosine =
-          hn::MulAdd(nx, hn::Load(d, x + i), hn::MulAdd(ny, hn::Load(d, y + i), hn::Mul(nz, hn::Load(d, z + i))));
-      const auto sine = hn::Sqrt(hn::Max(zero, hn::NegMulAdd(cosine, cosine, one)));
-      const auto cosThetaU = hn::Load(d, cosU + i);
-      const auto bound = hn::MulAdd(cosine, cosThetaU, hn::MulAdd(sine, hn::Load(d, sinU + i), margin));
-      const auto factor = hn::IfThenElse(hn::Ge(cosine, cosThetaU), one, hn::Max(zero, bound));
-      const auto weight = hn::Mul(factor, hn::Load(d, estimate + i));
-      hn::Store(weight, d, weights + i);
-      blockSum = hn::Add(blockSum, weight);
+  const auto addBlocks = [&](std::size_t blocks, const auto& weigh) {
+    for (std::size_t block = 0; block < blocks; ++block) {
+      auto blockSum = hn::Zero(kTag);
+      for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; i += lanes) {
+        const auto weight = weigh(i);
+        hn::Store(weight, kTag, weights + i);
+        blockSum = hn::Add(blockSum, weight);
+      }
+      blockSums[block] = hn::GetLane(hn::SumOfLanes(kTag, blockSum));
+      sum += static_cast<double>(blockSums[block]);
     }
-    blockSums[block] = hn::GetLane(hn::SumOfLanes(d, blockSum));
-    sum += static_cast<double>(blockSums[block]);
-  }
+    weights += blocks * kClusterBlock;
+    blockSums += blocks;
+  };
+  addBlocks(clusters.far.blocks(), [&](std::size_t i) HWY_ATTR { return farWeights(clusters.far, i, normal); });
+  addBlocks(clusters.near.blocks(),
+            [&](std::size_t i) HWY_ATTR { return nearWeights(clusters.near, i, point, normal); });
   return sum;
 }
 
@@ -55,36 +112,17 @@ namespace cellcut {
 
 HWY_EXPORT(clusterWeightsSimd);
 
-double clusterWeights(const ClusterArrays& clusters, const Vec3& n, float* weights, float* blockSums) {
-  return HWY_DYNAMIC_DISPATCH(clusterWeightsSimd)(clusters, n, weights, blockSums);
+double clusterWeights(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights, float* blockSums) {
+  return HWY_DYNAMIC_DISPATCH(clusterWeightsSimd)(clusters, p, n, weights, blockSums);
 }
 
-double clusterWeightsScalar(const ClusterArrays& clusters, const Vec3& n, float* weights, float* blockSums) {
-  double sum = 0;
-  for (std::size_t block = 0; block < clusters.blocks(); ++block) {
-    float blockSum = 0;
-    for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; ++i) {
-      const Vec3 direction(clusters.field(ClusterArrays::kDirectionX)[i], clusters.field(ClusterArrays::kDirectionY)[i],
-                           clusters.field(ClusterArrays::kDirectionZ)[i]);
-      weights[i] = clusters.field(ClusterArrays::kEstimate)[i] *
-                   receiverCosine(glm::dot(n, direction), clusters.field(ClusterArrays::kCosThetaU)[i],
-                                  clusters.field(ClusterArrays::kSinThetaU)[i]);
-      blockSum += weights[i];
-    }
-    blockSums[block] = blockSum;
-    sum += static_cast<double>(blockSum);
-  }
-  return sum;
-}
-
-ClusterArrays::ClusterArrays(std::size_t count) : size(count) {
+BlockedFloats::BlockedFloats(std::size_t count, std::size_t fields) : size_(count), fields_(fields) {
   if (count == 0) return;
-  const std::size_t floats = kFieldCount * blocks() * kClusterBlock;
-  values.reset(static_cast<float*>(hwy::AllocateAlignedBytes(floats * sizeof(float), nullptr, nullptr)));
-  std::fill_n(values.get(), floats, 0.0f);
+  values_.reset(static_cast<float*>(hwy::AllocateAlignedBytes(bytes(), nullptr, nullptr)));
+  std::fill_n(values_.get(), bytes() / sizeof(float), 0.0f);
 }
 
-void ClusterArrays::Free::operator()(float* p) const {
+void BlockedFloats::Free::operator()(float* p) const {
   hwy::FreeAlignedBytes(p, nullptr, nullptr);
 }
 

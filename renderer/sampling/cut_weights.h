@@ -12,24 +12,53 @@ namespace cellcut {
 /// Clusters are weighed in blocks of this many; arrays are padded to whole blocks.
 inline constexpr std::size_t kClusterBlock = 16;
 
-/// What a cut caches of its clusters, structure of arrays. Padding has estimate 0.
-struct ClusterArrays {
-  enum Field { kEstimate, kDirectionX, kDirectionY, kDirectionZ, kCosThetaU, kSinThetaU, kFieldCount };
+/// Blocks of floats, one row of blocks per field, aligned for any vector. Padding is 0, and so is the weight of
+/// padding.
+class BlockedFloats {
+ public:
+  BlockedFloats() = default;
+  BlockedFloats(std::size_t count, std::size_t fields);
 
-  ClusterArrays() = default;
-  /// All zero. \param count clusters without padding
-  explicit ClusterArrays(std::size_t count);
+  std::size_t size() const { return size_; }
+  std::size_t blocks() const { return (size_ + kClusterBlock - 1) / kClusterBlock; }
+  float* field(std::size_t f) { return values_.get() + f * blocks() * kClusterBlock; }
+  const float* field(std::size_t f) const { return values_.get() + f * blocks() * kClusterBlock; }
+  std::size_t bytes() const { return fields_ * blocks() * kClusterBlock * sizeof(float); }
 
-  std::size_t blocks() const { return (size + kClusterBlock - 1) / kClusterBlock; }
-  float* field(Field f) { return values.get() + static_cast<std::size_t>(f) * blocks() * kClusterBlock; }
-  const float* field(Field f) const { return values.get() + static_cast<std::size_t>(f) * blocks() * kClusterBlock; }
-  std::size_t bytes() const { return kFieldCount * blocks() * kClusterBlock * sizeof(float); }
-
-  std::size_t size = 0;
+ private:
   struct Free {
     void operator()(float* p) const;
   };
-  std::unique_ptr<float[], Free> values;  ///< aligned for any vector
+  std::size_t size_ = 0, fields_ = 0;
+  std::unique_ptr<float[], Free> values_;
+};
+
+/// What a cut caches of its clusters. Those that are far from the cell, in its measure, have one estimate for all of
+/// it; the others are evaluated at the point.
+struct ClusterArrays {
+  enum FarField { kEstimate, kDirectionX, kDirectionY, kDirectionZ, kCosThetaU, kSinThetaU, kFarFields };
+  enum NearField {
+    kCentreX,
+    kCentreY,
+    kCentreZ,
+    kRadius,
+    kIntensity,
+    kAxisX,
+    kAxisY,
+    kAxisZ,
+    kCosThetaO,
+    kSinThetaO,
+    kCosThetaE,
+    kTwoSided,
+    kNearFields
+  };
+
+  BlockedFloats far;
+  BlockedFloats near;
+
+  std::size_t blocks() const { return far.blocks() + near.blocks(); }
+  /// Where the weight of a cluster stands: far ones first, near ones from the next whole block on.
+  std::size_t nearSlot(std::size_t i) const { return far.blocks() * kClusterBlock + i; }
 };
 
 /// Rounding of a cosine bound in float. Without it 1.5 % of adversarial grazing cases lose a light.
@@ -42,13 +71,21 @@ inline float receiverCosine(float cosTheta, float cosThetaU, float sinThetaU) {
   return std::max(0.0f, cosTheta * cosThetaU + safeSqrt(1 - cosTheta * cosTheta) * sinThetaU + kCosineMargin);
 }
 
-/// Weight of each cluster at a point with unit normal n: cached estimate × receiverCosine.
-/// \param weights     out: blocks() · kClusterBlock values, ≥ 0
-/// \param blockSums   out: blocks() values
-/// \return            Σ of blockSums, first to last
-double clusterWeights(const ClusterArrays& clusters, const Vec3& n, float* weights, float* blockSums);
+/// A smooth mean distance between two spheres whose centres are D apart: 0.75 ρ at D = 0, D far away.
+/// \param rho  √(r² + r_C²) of their radii
+inline float meanDistance(float distance, float rho) {
+  if (rho == 0) return distance;
+  const float q = rho / (distance + 1.1547f * rho);
+  return distance + rho * q * q;
+}
+
+/// Weight of each cluster at a point p with unit normal n: estimate × receiverCosine, the estimate cached or found as
+/// for a region of radius 0. \param weights     out: blocks() · kClusterBlock values, ≥ 0 \param blockSums   out:
+/// blocks() values \return            Σ of blockSums, first to last
+double clusterWeights(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
 
 /// The same without SIMD: the definition, for tests.
-double clusterWeightsScalar(const ClusterArrays& clusters, const Vec3& n, float* weights, float* blockSums);
+double clusterWeightsScalar(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights,
+                            float* blockSums);
 
 }  // namespace cellcut

@@ -22,8 +22,9 @@ class PointCutSampler final : public LightSampler {
  private:
   Cut cutAt(const Vec3& p) const {
     std::vector<Cluster> clusters;
-    findCut(trees_, {p, 0}, {settings_.threshold, settings_.maxCut}, clusters);
-    return Cut(trees_, clusters);
+    const Region region{p, 0};
+    findCut(trees_, region, {settings_.threshold, settings_.maxCut}, clusters);
+    return Cut(trees_, region, clusters);
   }
 
   LightTrees trees_;
