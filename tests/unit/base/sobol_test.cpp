@@ -64,6 +64,24 @@ TEST(Sobol, FourDimensionsOfAnyPrefixAreANetOfQualityThree) {
   }
 }
 
+TEST(Sobol, EveryPairOfDimensionsIsStratified) {
+  constexpr std::array<unsigned, 4> kQuality{0, 0, 1,
+                                             2};  // degree − 1 of each dimension's polynomial; a pair has their sum
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = a + 1; b < 4; ++b) {
+      for (unsigned m = 4; m <= 12; ++m) {
+        const unsigned sum = m - kQuality[a] - kQuality[b];
+        for (unsigned first = 0; first <= sum; ++first) {
+          std::array<unsigned, 4> bits{};
+          bits[a] = first;
+          bits[b] = sum - first;
+          EXPECT_TRUE(isEven(prefix(m, 21), bits)) << a << " and " << b << ", 2^" << m << " points";
+        }
+      }
+    }
+  }
+}
+
 TEST(Sobol, EveryDimensionAloneIsStratified) {
   for (std::size_t d = 0; d < 4; ++d) {
     std::array<unsigned, 4> bits{};

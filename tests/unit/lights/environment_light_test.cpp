@@ -220,27 +220,22 @@ TEST(EnvironmentLight, TileThatPeeksOverTheHorizonIsNotLost) {
   }
 }
 
-TEST(EnvironmentLight, DimTexelBesideABrightOneIsReached) {
-  // Both in one tile: the pair holds less than a tile's share of the energy.
+TEST(EnvironmentLight, DimTexelAmongBrightOnesKeepsItsDensity) {
   Environment environment{ImageRgb(64, 32, Vec3(1)), 0};
   for (int y = 8; y < 12; ++y) {
     for (int x = 8; x < 12; ++x) environment.radiance.at(x, y) = Vec3(1e-6f);
   }
   const EnvironmentLight light(environment);
-  Rng rng(5);
-  // The 2 by 2 in the middle are dim through and through: 10⁻⁶ of their neighbours.
-  std::size_t tilesOfDim = 0;
+  // The 2 by 2 in the middle are dim through and through: 10⁻⁶ of what is around them.
   for (int y = 9; y < 11; ++y) {
     for (int x = 9; x < 11; ++x) {
-      const Vec3 d =
-          directionFromLatLong(environment, {(static_cast<float>(x) + 0.5f) / 64, (static_cast<float>(y) + 0.5f) / 32});
+      const Vec2 uv((static_cast<float>(x) + 0.5f) / 64, (static_cast<float>(y) + 0.5f) / 32);
+      const Vec3 d = directionFromLatLong(environment, uv);
       const auto tile = light.tileTowards(d);
       ASSERT_TRUE(tile);
       ASSERT_GT(light.pdf(*tile, d), 0);
-      ++tilesOfDim;
     }
   }
-  EXPECT_EQ(tilesOfDim, 4u);
 }
 
 }  // namespace

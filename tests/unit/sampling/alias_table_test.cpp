@@ -38,7 +38,7 @@ std::vector<double> sharesOf(const AliasTable& table, std::size_t n) {
 
 TEST(AliasTable, SamplesWithItsPmf) {
   Rng rng(3);
-  for (const std::size_t n : {1, 2, 3, 33, 1000}) {
+  for (const std::size_t n : {1u, 2u, 3u, 33u, 1000u}) {
     std::vector<double> weights(n);
     for (double& w : weights) w = std::pow(10.0, 6 * rng.uniformDouble());
     const AliasTable table(weights);
