@@ -216,7 +216,8 @@ TEST_F(VerbsOnAScene, PictureIsTheSameOnAnyNumberOfThreads) {
 }
 
 TEST_F(VerbsOnAScene, ExrTellsHowItWasMade) {
-  ASSERT_EQ(render("a b.exr", {"--spp", "2", "--seed", "77", "--max-depth", "1"}).code, kDone);
+  ASSERT_EQ(render("a b.exr", {"--spp", "2", "--seed", "77", "--max-depth", "1", "--strategy", "proportional"}).code,
+            kDone);
   const std::string header = contents("a b.exr").substr(0, 4096);
   for (const char* expected : {"commandLine", "--max-depth 1", "kinds.glb", "a b.exr'", "proportional", "77",
                                "maxDepth", "secondsRender", "albedo", "normal", "depth", "error"}) {
