@@ -137,8 +137,7 @@ void addCuts(CLI::App& verb, SamplerSettings& s) {
     s.cellMemory = static_cast<std::size_t>(parseWhole("--cell-memory", t, {.most = kMaxCellMegabytes})) << 20;
   };
   addText(verb, "--cell-memory", "MB", memory,
-          "Cuts that are kept; beyond it they are found again, slower, with the same picture (default " +
-              std::to_string(s.cellMemory >> 20) + ")");
+          "Kept cuts; beyond it the same are found again, slower (default " + std::to_string(s.cellMemory >> 20) + ")");
 }
 
 void addView(CLI::App& verb, RenderOptions& o) {
