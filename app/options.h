@@ -34,10 +34,10 @@ struct RenderOptions {
   std::string camera;  ///< name or index; empty: the first
 };
 
-inline constexpr int kMaxPictureSide = 16384;  // as kMaxImagePixels: what we write we can read
+inline constexpr int kMaxPictureSide = 16384;                 // as kMaxImagePixels: what we write we can read
 inline constexpr std::uint64_t kMaxCellMegabytes = 1u << 20;  // a terabyte: more is a typing error
-inline constexpr int kMaxDepthLimit = 10000;   // far past where a path in a closed white room still carries light
-inline constexpr int kMaxThreads = 1024;       // more is a typing error
+inline constexpr int kMaxDepthLimit = 10000;  // far past where a path in a closed white room still carries light
+inline constexpr int kMaxThreads = 1024;      // more is a typing error
 inline constexpr std::uint64_t kMaxPasses = 1u << 30;  // film sums are proved right to 10⁸
 
 /// Declares the options of a rendering on `verb`; parsing then fills `options`, which must stay where it is until then.

@@ -9,7 +9,8 @@ namespace cellcut {
 
 /// Ray with unit direction through a point of the film.
 /// \param film   in pixels, (0, 0) the top left corner of the picture, (width, height) the bottom right
-/// \param size   width and height in pixels; the vertical angle (or height) is the camera's, the horizontal follows from the aspect
+/// \param size   width and height in pixels; the vertical angle (or height) is the camera's, the horizontal follows
+/// from the aspect
 Ray cameraRay(const Camera& camera, Vec2 film, glm::ivec2 size);
 
 /// A view of the whole box from its front, a little above: for files that have no camera.

@@ -1,8 +1,8 @@
 /// \file environment.h
 /// The mapping between directions and lat-long coordinates, and the radiance that comes from a direction.
 ///
-/// Convention (as in three.js and Blender's glTF): +Y up, the middle column of the picture looks along +X, a quarter further
-/// right along +Z; the top row is up. Rotation turns the picture about +Y, counter-clockwise seen from above.
+/// Convention (as in three.js and Blender's glTF): +Y up, the middle column of the picture looks along +X, a quarter
+/// further right along +Z; the top row is up. Rotation turns the picture about +Y, counter-clockwise seen from above.
 ///     u = 1/2 + atan2(z, x) / 2π,   v = acos(y) / π
 #pragma once
 

@@ -13,6 +13,8 @@ enum class TexelEncoding : std::uint8_t { kLinear, kSrgb };  ///< of RGB; alpha 
 Vec4 lookup(const Scene& scene, const Texture& texture, TexelEncoding encoding, Vec2 uv);
 
 /// A slot's own coordinates for a triangle's texture coordinates.
-inline Vec2 slotUv(const TextureSlot& slot, Vec2 uv) { return slot.uvLinear * uv + slot.uvOffset; }
+inline Vec2 slotUv(const TextureSlot& slot, Vec2 uv) {
+  return slot.uvLinear * uv + slot.uvOffset;
+}
 
 }  // namespace cellcut
