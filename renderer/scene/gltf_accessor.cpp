@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -117,7 +118,8 @@ void viewSparse(const GltfDocument& document, const Refusal& refuse, const tinyg
                 AccessorView& view) {
   const auto& sparse = accessor.sparse;
   if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > view.count) refuse("has more sparse than elements");
-  if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) refuse("a sparse byteOffset is negative");
+  if (std::cmp_less(sparse.indices.byteOffset, 0) || std::cmp_less(sparse.values.byteOffset, 0))
+    refuse("a sparse byteOffset is negative");
   view.sparseIndices = sparseIndices(document, refuse, sparse, view.count);
   view.sparseValues =
       checkedStretch(document, refuse, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
