@@ -72,9 +72,9 @@ class LightTree {
 
   /// Chooses a leaf of a node with probability proportional to J.
   /// \param u  uniform in [0, 1)
-  std::uint32_t sampleByIntensity(NodeId node, double u) const;
+  std::uint32_t sampleByIntensity(NodeId id, double u) const;
   /// Its probability.
-  double pmfByIntensity(NodeId node, std::uint32_t leaf) const;
+  double pmfByIntensity(NodeId id, std::uint32_t leaf) const;
 
   std::span<const LightTreeNode> nodes() const { return nodes_; }
   int depth() const;

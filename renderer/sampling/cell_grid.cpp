@@ -17,7 +17,7 @@ constexpr std::size_t kMaxProbes = 64;
 
 /// 21 bits per axis.
 std::uint64_t keyOf(const CellCoordinates& cell) {
-  const auto bits = [](std::int32_t v) { return static_cast<std::uint64_t>(v + kCoordinateLimit); };
+  const auto bits = [](std::int32_t v) { return static_cast<std::uint64_t>(std::int64_t{v} + kCoordinateLimit); };
   return bits(cell.x) | bits(cell.y) << 21 | bits(cell.z) << 42;
 }
 
@@ -29,7 +29,8 @@ CellCoordinates cellOfKey(std::uint64_t key) {
 }
 
 /// Stands in a slot whose cell did not fit: it was made by nobody and will be by nobody.
-const Cut* const kNoRoom = reinterpret_cast<const Cut*>(std::uintptr_t{1});
+const Cut kNoRoomCut;
+const Cut* const kNoRoom = &kNoRoomCut;
 
 }  // namespace
 

@@ -56,8 +56,8 @@ struct Cluster {
 
 /// Whether and how much a node can send to a region: estimate J · cos θ' / d̄², θ' the least angle to an emission axis,
 /// d̄ a mean distance. Nothing only if no light of the node can reach any point of the region.
-std::optional<Cluster> localCluster(const LightTree& tree, NodeId node, const Region& region);
-Cluster distantCluster(const LightTree& tree, NodeId node);
+std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region);
+Cluster distantCluster(const LightTree& tree, NodeId id);
 
 /// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a
 /// function of its arguments alone.
