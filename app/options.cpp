@@ -15,8 +15,8 @@ namespace {
 /// An option whose text goes through a function of ours: the parser's own conversions read "010" as eight and "1e3x" as
 /// a thousand.
 CLI::Option* addText(CLI::App& verb, const std::string& name, const std::string& type,
-                     std::function<void(const std::string&)> use, const std::string& description) {
-  return verb.add_option_function<std::string>(name, std::move(use), description)->type_name(type);
+                     const std::function<void(const std::string&)>& use, const std::string& description) {
+  return verb.add_option_function<std::string>(name, use, description)->type_name(type);
 }
 
 Strategy parseStrategy(const std::string& name) {
