@@ -24,7 +24,8 @@ struct RealRange {
 /// \throws InputError naming `option`, the text and the range
 std::uint64_t parseWhole(const std::string& option, std::string_view text, WholeRange range);
 
-/// Decimal or scientific notation, finite. \throws InputError as parseWhole
+/// Decimal or scientific notation, finite.
+/// \throws InputError as parseWhole
 double parseReal(const std::string& option, std::string_view text, RealRange range);
 
 }  // namespace cellcut

@@ -48,7 +48,8 @@ void addRenderOptions(CLI::App& verb, RenderOptions& options);
 /// \throws InputError that lists the cameras
 std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex);
 
-/// Loads the scene and what the options put around it. \throws InputError as loadScene()
+/// Loads the scene and what the options put around it.
+/// \throws InputError as loadScene()
 Scene loadWithOptions(const RenderOptions& options);
 
 }  // namespace cellcut

@@ -15,7 +15,8 @@ namespace cellcut {
 /// A verb as the parser knows it, and what it does once its options are read.
 struct Verb {
   CLI::App* parser;  ///< owned by the program's parser
-  /// Returns an ExitCode. \throws InputError if the input cannot be used, any other std::exception if something else
+  /// Returns an ExitCode.
+  /// \throws InputError if the input cannot be used, any other std::exception if something else
   /// went wrong
   std::function<int(const Console&)> run;
 };

@@ -25,7 +25,8 @@ std::string describe(int error) {
 /// A new file that is removed again unless it is renamed.
 class TemporaryFile {
  public:
-  /// Beside `target`, so that the rename stays inside one file system. \throws InputError
+  /// Beside `target`, so that the rename stays inside one file system.
+  /// \throws InputError
   explicit TemporaryFile(const fs::path& target) : target_(target) {
     constexpr int kAttempts = 100;  // names are taken only by leftovers of killed runs and by other threads
     for (int i = 0; i < kAttempts && !file_; ++i) {

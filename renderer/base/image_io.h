@@ -38,7 +38,8 @@ struct LayeredImage {
 
 /// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey; the display
 /// window, black where there is no data), .pfm or .hdr. The numbers are taken as Rec. 709, whatever primaries a file
-/// names. \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than
+/// names.
+/// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than
 /// kMaxImagePixels.
 ImageRgb readImage(const std::filesystem::path& file);
 
@@ -55,7 +56,8 @@ std::vector<std::byte> encodePng(const ImageRgba8& image);
 /// All layers as 32-bit float OpenEXR, ZIP-compressed.
 std::vector<std::byte> encodeExr(const LayeredImage& image);
 
-/// encodeExr into a file. \throws InputError if the file cannot be written; the old file then stays.
+/// encodeExr into a file.
+/// \throws InputError if the file cannot be written; the old file then stays.
 void writeExr(const std::filesystem::path& file, const LayeredImage& image);
 
 /// Writes raw linear RGB as little-endian PFM.
@@ -64,10 +66,12 @@ void writePfm(const std::filesystem::path& file, const ImageRgb& image);
 /// Writes toneMap(exposure · c) of tone_map.h, 8 bits.
 void writePng(const std::filesystem::path& file, const ImageRgb& image, float exposure = 1);
 
-/// Writes `bytes` beside `file` and renames. \throws InputError if that fails; the old file then stays.
+/// Writes `bytes` beside `file` and renames.
+/// \throws InputError if that fails; the old file then stays.
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
-/// Whole file in memory. \throws InputError if it is no regular file, cannot be read, or is larger than `maxBytes`.
+/// Whole file in memory.
+/// \throws InputError if it is no regular file, cannot be read, or is larger than `maxBytes`.
 std::vector<std::byte> readFile(const std::filesystem::path& file, std::uintmax_t maxBytes);
 
 }  // namespace cellcut

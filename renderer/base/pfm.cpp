@@ -20,7 +20,8 @@ struct PfmHeader {
   std::size_t bytes = 0;
 };
 
-/// Next word and the one space after it. \throws InputError when there is none
+/// Next word and the one space after it.
+/// \throws InputError when there is none
 std::string_view nextWord(std::string_view text, std::size_t& at, const std::string& name) {
   const auto space = [&](std::size_t i) { return std::isspace(static_cast<unsigned char>(text[i])) != 0; };
   while (at < text.size() && space(at)) ++at;

@@ -17,7 +17,8 @@ class AliasTable {
   explicit AliasTable(std::span<const double> weights);
 
   bool empty() const { return bins_.empty(); }
-  /// \param u  in [0, 1) \pre !empty() \return an index whose weight is > 0
+  /// \param u  in [0, 1) \pre !empty()
+  /// \return an index whose weight is > 0
   std::size_t sample(double u) const;
   double pmf(std::size_t i) const { return empty() ? 0.0 : bins_[i].pmf; }
   std::size_t bytes() const { return bins_.capacity() * sizeof(Bin); }

@@ -80,8 +80,11 @@ inline float meanDistance(float distance, float rho) {
 }
 
 /// Weight of each cluster at a point p with unit normal n: estimate × receiverCosine, the estimate cached or found as
-/// for a region of radius 0. \param weights     out: blocks() · kClusterBlock values, ≥ 0 \param blockSums   out:
-/// blocks() values \return            Σ of blockSums, first to last
+/// for a region of radius 0.
+/// \param weights     out: blocks() · kClusterBlock values, ≥ 0; aligned to 64 bytes
+/// \param blockSums   out:
+/// blocks() values
+/// \return            Σ of blockSums, first to last
 double clusterWeights(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
 
 /// The same without SIMD: the definition, for tests.

@@ -15,7 +15,8 @@ struct EncodedImage {
   std::span<const std::byte> bytes;
 };
 
-/// decodeImage8 of each, in parallel and in order. \throws InputError of the first that cannot be decoded
+/// decodeImage8 of each, in parallel and in order.
+/// \throws InputError of the first that cannot be decoded
 std::vector<ImageRgba8> decodeTexels(std::span<const EncodedImage> images);
 
 }  // namespace cellcut

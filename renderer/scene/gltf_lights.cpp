@@ -19,7 +19,8 @@ struct PlacedLight {
   }
 };
 
-/// Colour × intensity × scale. \throws InputError if the result is no power
+/// Colour × intensity × scale.
+/// \throws InputError if the result is no power
 Vec3 powerOf(const PlacedLight& placed, double scale) {
   const glm::dvec3 color = vectorOr<3>(placed.light.color, glm::dvec3(1), placed.place + ": color");
   if (color.x < 0 || color.y < 0 || color.z < 0) placed.refuse("has a negative color; make it 0 or more");

@@ -8,7 +8,8 @@
 namespace cellcut {
 
 /// Fills scene.materials (one per glTF material, in order, then glTF's default material if a primitive has none),
-/// textures and texels. Images that no material uses are not decoded. \throws InputError for values without meaning
+/// textures and texels. Images that no material uses are not decoded.
+/// \throws InputError for values without meaning
 /// (negative emission by name) and pictures that cannot be decoded. Values that are only out of range are clamped with
 /// a warning.
 void readMaterials(const GltfDocument& document, Scene& scene);

@@ -14,7 +14,8 @@ void checkExtensions(const GltfDocument& document);
 void warnOfIgnoredExtensions(const GltfDocument& document, Scene& scene);
 
 /// Every buffer view lies in its buffer, every accessor in its view, every index names something that exists; the nodes
-/// form trees, whose roots the scenes list. \throws InputError naming the first place where this does not hold
+/// form trees, whose roots the scenes list.
+/// \throws InputError naming the first place where this does not hold
 void checkDocument(const GltfDocument& document);
 
 }  // namespace cellcut

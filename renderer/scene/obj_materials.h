@@ -19,8 +19,10 @@ class ByteStream : private std::streambuf, public std::istream {
 };
 
 /// Reads the materials of an MTL file and appends them and their pictures to the scene.
-/// A picture that is missing is a warning. \throws InputError for references out of the folder, damaged pictures and
-/// emission that is negative or not finite \return id by name
+/// A picture that is missing is a warning.
+/// \throws InputError for references out of the folder, damaged pictures and
+/// emission that is negative or not finite
+/// \return id by name
 std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector<std::byte> bytes,
                                           const std::string& name, Scene& scene);
 

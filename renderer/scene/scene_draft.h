@@ -52,7 +52,8 @@ bool usesTexCoords(const Material& material, std::uint8_t set);
 
 /// Writes out the instances around the scene's centre (Scene::origin), drops degenerate triangles and fills in what
 /// materials need and files leave out: texture coordinates, tangents, a camera. Parallel; the same result for any
-/// number of threads. \throws InputError if there are more than kMaxTriangles, or a place leaves the range of a float.
+/// number of threads.
+/// \throws InputError if there are more than kMaxTriangles, or a place leaves the range of a float.
 Scene flatten(SceneDraft draft);
 
 }  // namespace cellcut

@@ -21,7 +21,8 @@ class SceneFolder {
   /// \throws InputError for absolute paths, "..", URI schemes, control characters and links that lead outside.
   std::filesystem::path resolve(const std::string& reference) const;
 
-  /// The bytes of that file. \throws InputError as resolve() and readFile().
+  /// The bytes of that file.
+  /// \throws InputError as resolve() and readFile().
   std::vector<std::byte> read(const std::string& reference) const;
 
  private:

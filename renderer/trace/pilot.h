@@ -9,7 +9,8 @@
 namespace cellcut {
 
 /// Vertices of a fixed set of camera paths that scatter diffusely: the same for the same scene and camera, whatever the
-/// lights. \param maxDepth  vertices per path, of which the first few are followed
+/// lights.
+/// \param maxDepth  vertices per path, of which the first few are followed
 std::vector<Vec3> pilotVertices(const Scene& scene, const Accel& accel, const Camera& camera, int maxDepth);
 
 }  // namespace cellcut

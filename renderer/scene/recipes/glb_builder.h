@@ -52,12 +52,15 @@ class GlbBuilder {
 
   /// \param intensity W/sr, not black
   void addPoint(const Vec3& position, const Vec3& intensity);
-  /// \param axis where it shines, any length > 0   \param intensity on the axis, W/sr   \param inner, outer radians
+  /// \param axis where it shines, any length > 0
+  /// \param intensity on the axis, W/sr
+  /// \param inner, outer radians
   /// from the axis, 0 ≤ inner < outer ≤ π/2
   void addSpot(const Vec3& position, const Vec3& axis, const Vec3& intensity, float inner, float outer);
   /// \param irradiance W/m² across the axis
   void addDirectional(const Vec3& axis, const Vec3& irradiance);
-  /// The first camera that is added is the file's first. \param verticalFov radians
+  /// The first camera that is added is the file's first.
+  /// \param verticalFov radians
   void addCamera(const std::string& name, const Vec3& from, const Vec3& to, float verticalFov);
 
   /// Lights so far: emissive triangles and punctual lights.

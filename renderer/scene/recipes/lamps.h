@@ -15,7 +15,9 @@ struct Glow {
   float flux = 1;  ///< W, of the whole lamp
 };
 
-/// Luminance of a diffuse emitter. \param area m² \return W/(m² sr)
+/// Luminance of a diffuse emitter.
+/// \param area m²
+/// \return W/(m² sr)
 inline float radianceOf(float flux, float area) {
   return flux / (kPi * area);
 }

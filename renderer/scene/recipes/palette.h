@@ -85,7 +85,8 @@ class Palette {
   /// Flat surface that emits `radiance` W/(m² sr) of luminance, snapped to five levels per decade so that a million
   /// lamps share a few hundred materials; from both sides if asked. Each triangle added to it is a light.
   Surface& emitter(Tint tint, float radiance, bool bothSides = false);
-  /// The same for lights with a node of their own, where equal strengths share a definition. \param intensity W/sr
+  /// The same for lights with a node of their own, where equal strengths share a definition.
+  /// \param intensity W/sr
   Vec3 intensity(Tint tint, float intensity) const;
 
  private:

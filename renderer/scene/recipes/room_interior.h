@@ -43,7 +43,9 @@ enum class Clutter : std::uint8_t { kFull, kSparse };
 void furnishRoom(Palette& palette, const RoomSpace& room, Clutter clutter, std::optional<Vec2> keepClear, Rng& rng);
 
 /// Lamps with exactly `lights` lights, log-uniform in strength over four decades, that fill the room with about the
-/// given radiance. \param radiance  mean over the room's surfaces, W/(m² sr)   \param punctual  may use a point and a
+/// given radiance.
+/// \param radiance  mean over the room's surfaces, W/(m² sr)
+/// \param punctual  may use a point and a
 /// spot light
 void lightRoom(Palette& palette, const RoomSpace& room, std::size_t lights, float radiance, bool punctual, Rng& rng);
 

@@ -31,7 +31,8 @@ struct Pose {
   Vec3 origin{0.0f};
   Vec3 x{1, 0, 0};  ///< unit, horizontal; z = x × (0, 1, 0)
 
-  /// Turned counter-clockwise seen from above. \param angle radians
+  /// Turned counter-clockwise seen from above.
+  /// \param angle radians
   static Pose turned(const Vec3& origin, float angle);
   Vec3 z() const { return {-x.z, 0, x.x}; }
   Vec3 vector(const Vec3& local) const { return local.x * x + Vec3(0, local.y, 0) + local.z * z(); }
@@ -48,20 +49,23 @@ enum Face : std::uint8_t { kLeft = 1, kRight = 2, kBottom = 4, kTop = 8, kBack =
 void addTriangle(Surface& s, const Vec3& a, const Vec3& b, const Vec3& c);
 /// Corners counter-clockwise.
 void addQuad(Surface& s, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-/// Box between two local corners, lower < upper in each coordinate. \param without faces to leave out, or-ed
+/// Box between two local corners, lower < upper in each coordinate.
+/// \param without faces to leave out, or-ed
 void addBox(Surface& s, const Pose& pose, const Vec3& lower, const Vec3& upper, unsigned without = 0);
 /// Pyramid stump around the local vertical through `base`, flat shaded. A radius is ≥ 0 and one of them is > 0.
 /// \param without  kBottom, kTop: left open
 void addFrustum(Surface& s, const Vec3& base, float bottomRadius, float topRadius, float height, int sides,
                 unsigned without = 0);
-/// The regular solid with 4 faces, a corner up. \param angle radians about the vertical
+/// The regular solid with 4 faces, a corner up.
+/// \param angle radians about the vertical
 void addTetrahedron(Surface& s, const Vec3& centre, float radius, float angle);
 /// The regular solid with 8 faces, corners up and down.
 void addOctahedron(Surface& s, const Vec3& centre, float radius);
 /// Surface of revolution about the vertical through `base`, smooth. `profile` holds (radius, height) from the bottom
 /// up, seen from outside; the same point twice in a row makes a sharp edge.
 void addLathe(Surface& s, const Vec3& base, std::span<const Vec2> profile, int segments);
-/// Smooth ball. \param rings of quads from pole to pole, ≥ 2
+/// Smooth ball.
+/// \param rings of quads from pole to pole, ≥ 2
 void addSphere(Surface& s, const Vec3& centre, float radius, int rings, int segments);
 
 }  // namespace cellcut

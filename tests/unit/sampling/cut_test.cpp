@@ -116,7 +116,7 @@ TEST(Cut, SimdWeightsAreTheScalarOnes) {
     findCut(many.trees, region, {0.001f, 200}, clusters);
     const Cut cut(many.trees, region, clusters);
     const Vec3 p = region.centre + region.radius * rng.uniform() * randomUnit(rng), n = randomUnit(rng);
-    std::array<float, 512> simd, scalar;
+    alignas(64) std::array<float, 512> simd, scalar;
     std::array<float, 32> simdSums, scalarSums;
     const double sum = clusterWeights(cut.clusters(), p, n, simd.data(), simdSums.data());
     EXPECT_NEAR(sum, clusterWeightsScalar(cut.clusters(), p, n, scalar.data(), scalarSums.data()), 1e-5 * sum);
@@ -137,7 +137,7 @@ TEST(Cut, WeightOfAPointsOwnRegionIsTheImportance) {
   const Cut cut(many.trees, far, clusters);
   ASSERT_GT(cut.clusters().near.size(), 0u);
   const ShadingPoint point{Vec3(0.3f, 0.2f, -0.1f), glm::normalize(Vec3(1, 2, 3))};
-  std::array<float, 512> weights;
+  alignas(64) std::array<float, 512> weights;
   std::array<float, 32> sums;
   const double sum = clusterWeights(cut.clusters(), point.p, point.n, weights.data(), sums.data());
   for (const Cut::Member& m : cut.members()) {

@@ -77,7 +77,8 @@ TEST_P(Recipes, StateTheBoundsOfTheirPositions) {
   }
 }
 
-/// Brute force, so that the test shares nothing with the ray tracer. \return the nearest hit, or null
+/// Brute force, so that the test shares nothing with the ray tracer.
+/// \return the nearest hit, or null
 const GlbTriangle* nearest(const std::vector<GlbTriangle>& triangles, const Vec3& origin, const Vec3& direction) {
   const GlbTriangle* hit = nullptr;
   float nearestT = kInfinity;
