@@ -33,8 +33,8 @@ struct AccessorView {
 inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 22;
 
 /// \throws InputError if the accessor, its sparse part or their buffer views do not lie inside the data.
-/// \pre `accessor` names an accessor; every buffer view lies in its buffer
-AccessorView viewAccessor(const GltfDocument& document, int accessor);
+/// \pre `index` names an accessor; every buffer view lies in its buffer
+AccessorView viewAccessor(const GltfDocument& document, int index);
 
 /// Elements of a scalar accessor of unsigned integers. \pre its type is that
 std::vector<std::uint32_t> readUnsigned(const AccessorView& view);
