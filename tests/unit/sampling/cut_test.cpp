@@ -3,8 +3,10 @@
 #include "renderer/sampling/cut_choice.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
 
 #include <array>
+#include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -143,6 +145,36 @@ TEST(Cut, WeightOfAPointsOwnRegionIsTheImportance) {
   for (const Cut::Member& m : cut.members()) {
     if (m.slot < cut.clusters().nearSlot(0)) continue;
     EXPECT_NEAR(weights[m.slot], nodeImportance(many.trees.local, false, m.node, point), 1e-5 * sum);
+  }
+}
+
+// The proofs of all strategies have fewer lights than a cut has clusters, but for one: here clusters hold about a hundred.
+TEST(Cut, ChoosesInsideClustersWithTheProbabilityThatItReports) {
+  const ManyLights many;
+  const Region region{Vec3(0.1f), 0.3f};
+  std::vector<Cluster> clusters;
+  findCut(many.trees, region, {0, 8}, clusters);
+  const Cut cut(many.trees, region, clusters);
+  const ShadingPoint point{Vec3(0.2f, 0.1f, 0), glm::normalize(Vec3(1, 2, -1))};
+  for (const InCluster inCluster : {InCluster::kIntensity, InCluster::kDescent}) {
+    std::vector<double> outcomes;
+    for (std::size_t i = 0; i < many.lights.size(); ++i) {
+      outcomes.push_back(static_cast<double>(pmfInCut(many.trees, cut, inCluster, point, static_cast<LightId>(i))));
+    }
+    // The last outcome is none: a descent can end there.
+    outcomes.push_back(std::max(0.0, 1 - std::accumulate(outcomes.begin(), outcomes.end(), 0.0)));
+    std::vector<std::uint64_t> counts(outcomes.size());
+    Rng rng(9);
+    for (int i = 0; i < 300'000; ++i) {
+      const auto sample = sampleCut(many.trees, cut, inCluster, point, rng.uniformDouble());
+      ++counts[sample ? static_cast<std::size_t>(sample->light) : many.lights.size()];
+      if (!sample) continue;
+      // Roundings of a product and a quotient in another order.
+      ASSERT_NEAR(static_cast<double>(sample->pmf) / outcomes[static_cast<std::size_t>(sample->light)], 1, 1e-5);
+    }
+    const ChiSquare test = chiSquareTest(counts, outcomes);
+    EXPECT_EQ(test.impossible, 0u);
+    EXPECT_GT(test.p, sidak(0.01, 2));
   }
 }
 
