@@ -27,6 +27,7 @@ class PixelSampler {
   PixelSampler(PixelSampling sampling, std::uint64_t seed, int x, int y, std::uint64_t pass)
       : sampling_(sampling),
         index_(static_cast<std::uint32_t>(pass)),
+        reversedIndex_(reverseBits(index_)),
         // Passes past 2³² start another scramble.
         pixel_(hashOf(seed, x, y, pass >> 32)) {}
 
@@ -37,7 +38,7 @@ class PixelSampler {
   Sample4 next() {
     const std::uint64_t group = nextGroup();
     const std::uint64_t extra = bitsOf(group);
-    if (sampling_ == PixelSampling::kSobol) return {owenSobol4(index_, group), extra};
+    if (sampling_ == PixelSampling::kSobol) return {owenSobol4(reversedIndex_, group), extra};
     const std::uint64_t a = mixBits(extra + 0x9e3779b97f4a7c15ull);
     const std::uint64_t b = mixBits(extra + 2 * 0x9e3779b97f4a7c15ull);
     return {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b),
@@ -51,6 +52,7 @@ class PixelSampler {
 
   PixelSampling sampling_;
   std::uint32_t index_;
+  std::uint32_t reversedIndex_;
   std::uint64_t pixel_;
 };
 

@@ -5,15 +5,6 @@
 namespace cellcut {
 namespace {
 
-constexpr std::uint32_t reverseBits(std::uint32_t v) {
-  v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
-  v = ((v >> 2) & 0x33333333u) | ((v & 0x33333333u) << 2);
-  v = ((v >> 4) & 0x0f0f0f0fu) | ((v & 0x0f0f0f0fu) << 4);
-  // Not a byte-swap instruction: shifts let the compiler reverse four numbers at once.
-  v = ((v >> 8) & 0x00ff00ffu) | ((v & 0x00ff00ffu) << 8);
-  return (v >> 16) | (v << 16);
-}
-
 /// Hash in which every bit depends on lower bits only: on reversed bits, an Owen scramble.
 /// Source: Laine and Karras 2011, section 3.1; constants of Vegdahl 2021, "Owen Scrambling Based on Base-2 Hashing".
 constexpr std::uint32_t laineKarras(std::uint32_t v, std::uint32_t seed) {
@@ -33,11 +24,12 @@ struct Polynomial {
 };
 constexpr std::array<Polynomial, 3> kPolynomials{{{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}}};
 
-/// Direction numbers, bit-reversed, folded into one table per byte of the index. Dimension 0, the radical inverse, is
-/// the reversed index.
-using ByteTables = std::array<std::array<std::uint32_t, 256>, 4>;
+/// Bit-reversed direction numbers of the four dimensions, folded into one table per byte of the index, so that a byte
+/// takes one load of four numbers. Dimension 0 is the radical inverse: reversed, the index itself.
+using Numbers4 = std::array<std::uint32_t, 4>;
+using ByteTables = std::array<std::array<Numbers4, 256>, 4>;
 
-constexpr ByteTables makeTables(const Polynomial& polynomial) {
+constexpr std::array<std::uint32_t, 32> directionNumbers(const Polynomial& polynomial) {
   std::array<std::uint32_t, 32> direction{};
   for (unsigned i = 0; i < 32; ++i) {
     if (i < polynomial.degree) {
@@ -50,42 +42,47 @@ constexpr ByteTables makeTables(const Polynomial& polynomial) {
       if ((polynomial.coefficients >> (s - 1 - k)) & 1u) direction[i] ^= direction[i - k];
     }
   }
+  return direction;
+}
+
+constexpr ByteTables makeTables() {
   ByteTables tables{};
-  for (unsigned byte = 0; byte < 4; ++byte) {
-    for (unsigned value = 0; value < 256; ++value) {
-      for (unsigned bit = 0; bit < 8; ++bit) {
-        if ((value >> bit) & 1u) tables[byte][value] ^= reverseBits(direction[byte * 8 + bit]);
+  for (unsigned dimension = 0; dimension < 4; ++dimension) {
+    std::array<std::uint32_t, 32> direction{};
+    if (dimension > 0) direction = directionNumbers(kPolynomials[dimension - 1]);
+    for (unsigned bit = 0; bit < 32; ++bit) {
+      const std::uint32_t reversed = dimension == 0 ? 1u << bit : reverseBits(direction[bit]);
+      for (unsigned value = 0; value < 256; ++value) {
+        if ((value >> (bit % 8)) & 1u) tables[bit / 8][value][dimension] ^= reversed;
       }
     }
   }
   return tables;
 }
-constexpr std::array<ByteTables, 3> kTables{makeTables(kPolynomials[0]), makeTables(kPolynomials[1]),
-                                            makeTables(kPolynomials[2])};
+alignas(16) constexpr ByteTables kTables = makeTables();
 
-std::uint32_t reversedSobol(const ByteTables& tables, std::uint32_t index) {
-  std::uint32_t result = tables[0][index & 255] ^ tables[1][(index >> 8) & 255];
-  if (index >> 16) result ^= tables[2][(index >> 16) & 255] ^ tables[3][index >> 24];
-  return result;
+void xorInto(Numbers4& a, const Numbers4& b) {
+  for (std::size_t d = 0; d < 4; ++d) a[d] ^= b[d];
 }
 
 }  // namespace
 
-std::array<std::uint32_t, 4> owenSobol4(std::uint32_t index, std::uint64_t seed) {
-  // Only the lower half of the index is shuffled: which block of 2¹⁶ points comes first does not matter once the
-  // coordinates are scrambled, and short indices need half of the tables.
-  constexpr std::uint32_t kShuffled = 0xffffu;
-  const std::uint32_t shuffle = reverseBits(laineKarras(reverseBits(index), static_cast<std::uint32_t>(seed)));
-  const std::uint32_t i = (index & ~kShuffled) | (shuffle & kShuffled);
-
+std::array<std::uint32_t, 4> owenSobol4(std::uint32_t reversedIndex, std::uint64_t seed) {
   const std::uint64_t h = mixBits(seed ^ 0x632be59bd9b4e019ull);
   const std::uint64_t g = mixBits(h);
-  const std::array<std::uint32_t, 4> seeds{static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32),
-                                           static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(g >> 32)};
-  const std::array<std::uint32_t, 4> reversed{i, reversedSobol(kTables[0], i), reversedSobol(kTables[1], i),
-                                              reversedSobol(kTables[2], i)};
-  std::array<std::uint32_t, 4> points;
-  for (std::size_t d = 0; d < 4; ++d) points[d] = reverseBits(laineKarras(reversed[d], seeds[d]));
+  const Numbers4 seeds{static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32),
+                       static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(g >> 32)};
+  // Only the lower half of the index is shuffled: which block of 2¹⁶ points comes first does not matter once the
+  // coordinates are scrambled, and short indices need half of the tables.
+  const std::uint32_t lower = reverseBits(laineKarras(reversedIndex, static_cast<std::uint32_t>(seed)));
+  Numbers4 points = kTables[0][lower & 255];
+  xorInto(points, kTables[1][(lower >> 8) & 255]);
+  if (const std::uint32_t upper = reversedIndex & 0xffffu; upper != 0) {
+    const std::uint32_t index = reverseBits(upper);
+    xorInto(points, kTables[2][(index >> 16) & 255]);
+    xorInto(points, kTables[3][index >> 24]);
+  }
+  for (std::size_t d = 0; d < 4; ++d) points[d] = reverseBits(laineKarras(points[d], seeds[d]));
   return points;
 }
 

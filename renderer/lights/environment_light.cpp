@@ -14,16 +14,15 @@ constexpr std::int32_t kBlack = std::numeric_limits<std::int32_t>::min();
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const Environment& environment) : environment_(environment) {
+  const double height = environment.radiance.height(), width = environment.radiance.width();
+  constexpr double pi = std::numbers::pi;
+  for (int y = 0; y < environment.radiance.height(); ++y) {
+    // cos a − cos b as a product: no cancellation at the poles.
+    const double band = 2 * std::sin(pi * (y + 0.5) / height) * std::sin(pi * 0.5 / height);
+    texelSolidAngles_.push_back(static_cast<float>(2 * pi / width * band));
+  }
   buildPyramid();
   if (levels_.back().weights[0] > 0) splitTiles();
-}
-
-float EnvironmentLight::texelSolidAngle(std::uint32_t y) const {
-  const double height = environment_.radiance.height(), width = environment_.radiance.width();
-  const double pi = std::numbers::pi;
-  // cos a − cos b as a product: no cancellation at the poles.
-  const double band = 2 * std::sin(pi * (y + 0.5) / height) * std::sin(pi * 0.5 / height);
-  return static_cast<float>(2 * pi / width * band);
 }
 
 void EnvironmentLight::buildPyramid() {
@@ -32,7 +31,7 @@ void EnvironmentLight::buildPyramid() {
   Level texels{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
   texels.weights.resize(image.size());
   tbb::parallel_for(0, height, [&](int y) {
-    const float solidAngle = texelSolidAngle(static_cast<std::uint32_t>(y));
+    const float solidAngle = texelSolidAngles_[static_cast<std::size_t>(y)];
     for (int x = 0; x < width; ++x) {
       // The integral of a bilinear interpolant over a texel: (1 6 1)/8 on each axis.
       float sum = 0;
@@ -127,25 +126,25 @@ EnvironmentLight::Sample EnvironmentLight::sample(std::size_t tile, Vec2 u) cons
   const float cosTop = std::cos(kPi * static_cast<float>(y) / height);
   const float cosBottom = std::cos(kPi * static_cast<float>(y + 1) / height);
   const float v = std::acos(std::clamp(cosTop + u.y * (cosBottom - cosTop), -1.0f, 1.0f)) * kInvPi;
-  const Vec3 direction = directionFromLatLong(environment_, {(static_cast<float>(x) + u.x) / width, v});
-  return {direction, levels_[0].at(x, y) / (tiles_[tile].weight * texelSolidAngle(y))};
+  const Vec2 uv((static_cast<float>(x) + u.x) / width, v);
+  return {uv, directionFromLatLong(environment_, uv),
+          levels_[0].at(x, y) / (tiles_[tile].weight * texelSolidAngles_[y])};
 }
 
-EnvironmentLight::Texel EnvironmentLight::texelTowards(const Vec3& direction) const {
-  const Vec2 uv = latLongFromDirection(environment_, direction);
+EnvironmentLight::Texel EnvironmentLight::texelAt(Vec2 uv) const {
   const auto width = levels_[0].width, height = levels_[0].height;
   return {std::min(static_cast<std::uint32_t>(uv.x * static_cast<float>(width)), width - 1),
           std::min(static_cast<std::uint32_t>(uv.y * static_cast<float>(height)), height - 1)};
 }
 
-float EnvironmentLight::pdf(std::size_t tile, const Vec3& direction) const {
-  const Texel texel = texelTowards(direction);
-  return levels_[0].at(texel.x, texel.y) / (tiles_[tile].weight * texelSolidAngle(texel.y));
+float EnvironmentLight::pdf(std::size_t tile, Vec2 uv) const {
+  const Texel texel = texelAt(uv);
+  return levels_[0].at(texel.x, texel.y) / (tiles_[tile].weight * texelSolidAngles_[texel.y]);
 }
 
-std::optional<std::size_t> EnvironmentLight::tileTowards(const Vec3& direction) const {
+std::optional<std::size_t> EnvironmentLight::tileAt(Vec2 uv) const {
   if (nodes_.empty()) return std::nullopt;
-  const Texel texel = texelTowards(direction);
+  const Texel texel = texelAt(uv);
   std::size_t node = 0;
   for (std::size_t level = levels_.size() - 1; nodes_[node] >= 0; --level) {
     const std::uint32_t column = (texel.x >> (level - 1)) & 1, row = (texel.y >> (level - 1)) & 1;
@@ -156,7 +155,7 @@ std::optional<std::size_t> EnvironmentLight::tileTowards(const Vec3& direction) 
 }
 
 std::size_t EnvironmentLight::bytes() const {
-  std::size_t sum = tiles_.capacity() * sizeof(EnvironmentTile) + nodes_.capacity() * sizeof(std::int32_t);
+  std::size_t sum = texelSolidAngles_.capacity() * sizeof(float) + tiles_.capacity() * sizeof(EnvironmentTile) + nodes_.capacity() * sizeof(std::int32_t);
   for (const Level& level : levels_) sum += level.weights.capacity() * sizeof(float);
   return sum;
 }

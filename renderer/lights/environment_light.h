@@ -33,14 +33,16 @@ class EnvironmentLight {
   const std::vector<EnvironmentTile>& tiles() const { return tiles_; }
 
   struct Sample {
+    Vec2 uv;  ///< in the picture: latLongFromDirection(direction)
     Vec3 direction;
     float pdf;  ///< over solid angle, given the tile
   };
   Sample sample(std::size_t tile, Vec2 u) const;
-  float pdf(std::size_t tile, const Vec3& direction) const;
+  /// \param uv  in the picture, inside the tile
+  float pdf(std::size_t tile, Vec2 uv) const;
 
-  /// The tile that a unit direction falls into, unless that part is black.
-  std::optional<std::size_t> tileTowards(const Vec3& direction) const;
+  /// The tile that a point of the picture falls into, unless that part is black.
+  std::optional<std::size_t> tileAt(Vec2 uv) const;
 
   const Environment& environment() const { return environment_; }
   std::size_t bytes() const;
@@ -59,10 +61,10 @@ class EnvironmentLight {
   void buildPyramid();
   void splitTiles();
   void addTile(std::uint8_t level, std::uint32_t x, std::uint32_t y);
-  float texelSolidAngle(std::uint32_t y) const;
-  Texel texelTowards(const Vec3& direction) const;
+  Texel texelAt(Vec2 uv) const;
 
   const Environment& environment_;
+  std::vector<float> texelSolidAngles_;  ///< per row, sr
   std::vector<Level> levels_;
   std::vector<EnvironmentTile> tiles_;
   /// Quadtree from the pyramid's top to the tiles: index of the first of four children, or ~tile, or kBlack.

@@ -127,7 +127,7 @@ std::optional<LightSample> Lights::sampleDistant(LightKind kind, std::size_t ind
     return sample;
   }
   const EnvironmentLight::Sample direction = environment_->sample(index, u);
-  sample.radiance = environmentRadiance(environment_->environment(), direction.direction);
+  sample.radiance = environmentRadiance(environment_->environment(), direction.uv);
   sample.wi = direction.direction;
   sample.pdf = direction.pdf;
   sample.delta = false;
@@ -150,9 +150,9 @@ std::optional<LightId> Lights::lightAt(MeshId mesh, std::uint32_t triangle) cons
   return idOf(LightKind::kTriangle, static_cast<std::size_t>(found - triangles_.begin()));
 }
 
-std::optional<LightId> Lights::lightTowards(const Vec3& direction) const {
+std::optional<LightId> Lights::environmentLightAt(Vec2 uv) const {
   if (!environment_) return std::nullopt;
-  const std::optional<std::size_t> tile = environment_->tileTowards(direction);
+  const std::optional<std::size_t> tile = environment_->tileAt(uv);
   if (!tile) return std::nullopt;
   return idOf(LightKind::kEnvironment, *tile);
 }
@@ -162,8 +162,8 @@ float Lights::trianglePdf(LightId light, const Vec3& p, const Vec3& q) const {
   return cellcut::trianglePdf(triangleGeometry(scene_.meshes[indexOf(t.mesh)], t.triangle), p, q);
 }
 
-float Lights::environmentPdf(LightId light, const Vec3& direction) const {
-  return environment_->pdf(indexInKind(light), direction);
+float Lights::environmentPdf(LightId light, Vec2 uv) const {
+  return environment_->pdf(indexInKind(light), uv);
 }
 
 double Lights::flux(LightId light) const {

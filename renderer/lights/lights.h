@@ -69,12 +69,13 @@ class Lights {
 
   /// The triangle light at a hit, if that triangle is one.
   std::optional<LightId> lightAt(MeshId mesh, std::uint32_t triangle) const;
-  /// The tile that a direction falls into; nothing where the environment is black or there is none.
-  std::optional<LightId> lightTowards(const Vec3& direction) const;
+  /// The tile that a point of the environment's picture falls into; nothing where it is black.
+  std::optional<LightId> environmentLightAt(Vec2 uv) const;
   /// Density over solid angle at `p` with which sample() finds point `q` of a triangle light.
   float trianglePdf(LightId light, const Vec3& p, const Vec3& q) const;
-  /// Density over solid angle with which sample() finds `direction` in its tile.
-  float environmentPdf(LightId light, const Vec3& direction) const;
+  /// Density over solid angle with which sample() finds the direction of a point of the environment's picture in its
+  /// tile.
+  float environmentPdf(LightId light, Vec2 uv) const;
 
   /// Emitted power, luminance in W; directional lights and tiles count what falls on a disk of the scene's radius.
   double flux(LightId light) const;

@@ -80,7 +80,7 @@ TriangleGeometry triangleGeometry(const Mesh& mesh, std::uint32_t triangle) {
   const glm::dvec3 origin(c[0]);
   const glm::dvec3 cross = glm::cross(glm::dvec3(c[1]) - origin, glm::dvec3(c[2]) - origin);
   const double length = glm::length(cross);
-  return {c, Vec3(cross / length), static_cast<float>(0.5 * length)};
+  return {c, Vec3(cross * (1 / length)), static_cast<float>(0.5 * length)};
 }
 
 std::optional<TrianglePoint> sampleTriangle(const TriangleGeometry& triangle, const Vec3& p, Vec2 u) {

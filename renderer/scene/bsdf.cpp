@@ -63,7 +63,8 @@ float Bsdf::reflectionProbability(const Vec3& wo) const {
   return base > 0 ? std::clamp(reflection / (reflection + base), 0.1f, 0.9f) : 1.0f;
 }
 
-Bsdf::Weights Bsdf::evalAll(const Vec3& wo, const Vec3& wi) const {
+Bsdf::Value Bsdf::eval(const Vec3& wo, const Vec3& wi) const {
+  if (!(wo.z > 0 && wi.z > 0)) return {};
   if (!reflects_) return {diffuse_, wi.z * kInvPi};
   const float out = 1 - (dielectricF0_ + (dielectricF90_ - dielectricF0_) * schlickWeight(wo.z));
   const float in = 1 - (dielectricF0_ + (dielectricF90_ - dielectricF0_) * schlickWeight(wi.z));
@@ -78,14 +79,6 @@ Bsdf::Weights Bsdf::evalAll(const Vec3& wo, const Vec3& wi) const {
   return {diffuse_ * (out * in) + fresnel * reflection, (1 - q) * wi.z * kInvPi + q * reflectionPdf};
 }
 
-Vec3 Bsdf::eval(const Vec3& wo, const Vec3& wi) const {
-  return wo.z > 0 && wi.z > 0 ? evalAll(wo, wi).value : Vec3(0.0f);
-}
-
-float Bsdf::pdf(const Vec3& wo, const Vec3& wi) const {
-  return wo.z > 0 && wi.z > 0 ? evalAll(wo, wi).pdf : 0.0f;
-}
-
 std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, float uLobe, Vec2 u) const {
   if (!(wo.z > 0)) return std::nullopt;
   Vec3 wi;
@@ -95,10 +88,9 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, float uLobe, Vec2 u) cons
   } else {
     wi = cosineHemisphere(u);
   }
-  if (!(wi.z > 0)) return std::nullopt;
-  const Weights weights = evalAll(wo, wi);
-  if (!(weights.pdf > 0) || isBlack(weights.value)) return std::nullopt;
-  return BsdfSample{wi, weights.value, weights.pdf};
+  const auto [value, pdf] = eval(wo, wi);
+  if (!(pdf > 0) || isBlack(value)) return std::nullopt;
+  return BsdfSample{wi, value, pdf};
 }
 
 }  // namespace cellcut

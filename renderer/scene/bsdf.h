@@ -31,19 +31,17 @@ class Bsdf {
  public:
   explicit Bsdf(const BsdfParameters& parameters);
 
-  /// f(wo, wi), 1/sr.
-  Vec3 eval(const Vec3& wo, const Vec3& wi) const;
-  float pdf(const Vec3& wo, const Vec3& wi) const;
+  struct Value {
+    Vec3 value{0.0f};  ///< f(wo, wi), 1/sr
+    float pdf = 0;     ///< with which sample() finds wi
+  };
+  /// Both 0 when a direction is below the surface.
+  Value eval(const Vec3& wo, const Vec3& wi) const;
   /// Nothing when the sampled direction is below the surface or reflects nothing.
   /// \param uLobe chooses between base and reflection
   std::optional<BsdfSample> sample(const Vec3& wo, float uLobe, Vec2 u) const;
 
  private:
-  struct Weights {
-    Vec3 value;
-    float pdf;
-  };
-  Weights evalAll(const Vec3& wo, const Vec3& wi) const;
   float reflectionProbability(const Vec3& wo) const;
 
   Vec3 diffuse_;  ///< scaled: see the constructor

@@ -9,13 +9,9 @@ Ray cameraRay(const Camera& camera, Vec2 film, glm::ivec2 size) {
   // Offset from the middle of the film in half heights, so that the vertical angle does not depend on the aspect.
   const Vec2 halfSize = 0.5f * Vec2(size);
   const Vec2 offset{(film.x - halfSize.x) / halfSize.y, 1 - film.y / halfSize.y};
-  if (camera.orthographic) {
-    const Vec3 across = camera.halfHeight * (offset.x * camera.right + offset.y * camera.up);
-    return {camera.position + across, -camera.back};
-  }
-  const float halfTangent = std::tan(0.5f * camera.verticalFov);
-  return {camera.position,
-          glm::normalize(halfTangent * (offset.x * camera.right + offset.y * camera.up) - camera.back)};
+  const Vec3 across = camera.halfHeight * (offset.x * camera.right + offset.y * camera.up);
+  if (camera.orthographic) return {camera.position + across, -camera.back};
+  return {camera.position, glm::normalize(across - camera.back)};
 }
 
 Camera defaultCamera(const Bounds& bounds) {
@@ -27,7 +23,7 @@ Camera defaultCamera(const Bounds& bounds) {
   camera.right = glm::normalize(glm::cross(Vec3{0, 1, 0}, camera.back));
   camera.up = glm::cross(camera.back, camera.right);
   // The sphere around the box just touches the top and the bottom of the picture.
-  camera.position = centre + radius / std::sin(0.5f * camera.verticalFov) * camera.back;
+  camera.position = centre + radius / std::sin(std::atan(camera.halfHeight)) * camera.back;
   return camera;
 }
 

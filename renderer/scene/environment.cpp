@@ -56,9 +56,8 @@ Vec3 directionFromLatLong(const Environment& environment, Vec2 uv) {
   return {sine * std::cos(azimuth), std::cos(polar), sine * std::sin(azimuth)};
 }
 
-Vec3 environmentRadiance(const Environment& environment, const Vec3& direction) {
+Vec3 environmentRadiance(const Environment& environment, Vec2 uv) {
   const ImageRgb& image = environment.radiance;
-  const Vec2 uv = latLongFromDirection(environment, direction);
   Neighbours x = neighbours(uv.x, image.width());
   Neighbours y = neighbours(uv.y, image.height());
   if (x.first < 0) x.first = image.width() - 1;

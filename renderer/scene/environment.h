@@ -15,7 +15,11 @@ Vec2 latLongFromDirection(const Environment& environment, const Vec3& direction)
 /// Unit direction of picture coordinates. Inverse of latLongFromDirection but at the poles.
 Vec3 directionFromLatLong(const Environment& environment, Vec2 uv);
 
-/// Radiance seen along a unit direction: bilinear between texel centres, wrapping at the seam, clamped at the poles.
-Vec3 environmentRadiance(const Environment& environment, const Vec3& direction);
+/// Radiance at picture coordinates: bilinear between texel centres, wrapping at the seam, clamped at the poles.
+Vec3 environmentRadiance(const Environment& environment, Vec2 uv);
+/// Radiance seen along a unit direction.
+inline Vec3 environmentRadiance(const Environment& environment, const Vec3& direction) {
+  return environmentRadiance(environment, latLongFromDirection(environment, direction));
+}
 
 }  // namespace cellcut

@@ -29,8 +29,8 @@ void setLens(const tinygltf::Camera& source, const std::string& place, Camera& c
     camera.halfHeight = static_cast<float>(source.orthographic.ymag);
     if (!(camera.halfHeight > 0 && std::isfinite(camera.halfHeight))) throw InputError(place, "ymag must be positive");
   } else {
-    camera.verticalFov = static_cast<float>(source.perspective.yfov);
-    if (!(camera.verticalFov > 0 && source.perspective.yfov < std::numbers::pi)) {
+    camera.halfHeight = static_cast<float>(std::tan(0.5 * source.perspective.yfov));
+    if (!(camera.halfHeight > 0 && source.perspective.yfov < std::numbers::pi)) {
       throw InputError(place, "yfov must lie between 0 and π");
     }
   }

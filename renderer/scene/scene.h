@@ -133,8 +133,9 @@ struct Camera {
   bool orthographic = false;
   Vec3 position{0.0f};
   Vec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1};  ///< unit and orthogonal
-  float verticalFov = 0.8f;                         ///< radians, (0, π); perspective only
-  float halfHeight = 1;                             ///< metres; orthographic only
+  /// Half of what is seen from top to bottom: in perspective at distance 1, the tangent of half of the vertical angle;
+  /// else in metres.
+  float halfHeight = 0.4f;
 };
 
 /// What the file held before it was flattened, for `info`.

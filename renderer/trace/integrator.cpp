@@ -26,14 +26,12 @@ struct Vertex {
 
   ShadingPoint shadingPoint() const { return {surface.p, frame.z}; }
   /// Cosine-weighted BSDF towards a world direction with the density that sampleBsdf has for it; 0 through the surface.
-  struct Scattering {
-    Vec3 value{0.0f};
-    float pdf = 0;
-  };
-  Scattering scattering(const Vec3& direction) const {
+  Bsdf::Value scattering(const Vec3& direction) const {
+    if (!(glm::dot(direction, normal) > 0)) return {};
     const Vec3 wi = frame.toLocal(direction);
-    if (!(wi.z > 0 && glm::dot(direction, normal) > 0)) return {};
-    return {bsdf.eval(wo, wi) * wi.z, bsdf.pdf(wo, wi)};
+    Bsdf::Value scattering = bsdf.eval(wo, wi);
+    scattering.value *= wi.z;
+    return scattering;
   }
 };
 
@@ -80,7 +78,7 @@ class Path {
       if (last) break;
 
       const Vertex vertex = makeVertex(context_.scene, surface, -ray.direction);
-      if (depth == 0) result_.normal = vertex.frame.z;
+      if (depth == 0 && context_.auxiliary) result_.normal = vertex.frame.z;
       addDirectLight(vertex);
       if (depth + 1 == context_.maxDepth && !context_.bounceCanFind) break;
       const Sample4 numbers = random_.next();
@@ -95,6 +93,7 @@ class Path {
 
  private:
   void recordFirstHit(const SurfacePoint& surface, const Hit& hit, const Ray& ray) {
+    if (!context_.auxiliary) return;
     result_.depth = hit.t;
     result_.albedo = glm::clamp(baseColor(context_.scene, surface.at), 0.0f, 1.0f);
     result_.normal = glm::dot(surface.normal, ray.direction) < 0 ? surface.normal : -surface.normal;
@@ -102,14 +101,15 @@ class Path {
 
   void addEnvironment(const Vec3& direction) {
     if (!context_.scene.environment) return;
+    const Vec2 uv = latLongFromDirection(*context_.scene.environment, direction);
     float weight = 1;
     if (bounce_) {
-      const std::optional<LightId> light = context_.lights.lightTowards(direction);
+      const std::optional<LightId> light = context_.lights.environmentLightAt(uv);
       if (!light) return;
       weight = powerHeuristic(bounce_->pdf, context_.sampler.pmf(bounce_->from, *light) *
-                                                context_.lights.environmentPdf(*light, direction));
+                                                context_.lights.environmentPdf(*light, uv));
     }
-    result_.radiance += throughput_ * weight * environmentRadiance(*context_.scene.environment, direction);
+    result_.radiance += throughput_ * weight * environmentRadiance(*context_.scene.environment, uv);
   }
 
   void addEmission(const SurfacePoint& surface, const Material& material, const Hit& hit, const Vec3& direction) {
@@ -136,7 +136,7 @@ class Path {
       if (context_.lights.liesAt(choice->light, vertex.surface.p)) ++counts_.dropped;
       return;
     }
-    const Vertex::Scattering scattering = vertex.scattering(light->wi);
+    const Bsdf::Value scattering = vertex.scattering(light->wi);
     if (isBlack(scattering.value)) return;
 
     const Vec3 origin = offsetRayOrigin(vertex.surface.p, vertex.surface.error, vertex.normal, light->wi);

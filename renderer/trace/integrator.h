@@ -30,6 +30,7 @@ struct PathContext {
   const LightSampler& sampler;
   int maxDepth;                  ///< path vertices that scatter; 1 is direct light only
   bool bounceCanFind;            ///< BSDF rays can meet radiance: emissive or unlit triangles, or an environment
+  bool auxiliary = false;        ///< albedo, normal and depth are wanted too
   PathRecord* record = nullptr;  ///< where to write down what was done; one thread only
 };
 

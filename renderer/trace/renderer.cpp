@@ -90,7 +90,8 @@ Renderer::~Renderer() = default;
 bool Renderer::renderPass(const std::atomic<bool>& cancel) {
   State& s = *state_;
   const bool bounceCanFind = s.lights.count(LightKind::kTriangle) > 0 || s.scene.environment || hasUnlit(s.scene);
-  const PathContext context{s.scene, s.accel, s.lights, *s.sampler, s.settings.maxDepth, bounceCanFind};
+  const PathContext context{
+      s.scene, s.accel, s.lights, *s.sampler, s.settings.maxDepth, bounceCanFind, s.settings.auxiliary};
   AtomicCounts counts;
   bool committed = false;
   s.arena.execute([&] {

@@ -20,7 +20,7 @@ PathRecord recordPass(const Scene& scene, const Accel& accel) {
   const Lights lights(scene);
   const auto sampler = makeLightSampler(Strategy::kUniform, lights);
   PathRecord record;
-  const PathContext context{scene, accel, lights, *sampler, 1, true, &record};
+  const PathContext context{scene, accel, lights, *sampler, 1, true, false, &record};
   PathCounts counts;
   for (int y = 0; y < kSize.y; ++y) {
     for (int x = 0; x < kSize.x; ++x) {

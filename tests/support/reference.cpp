@@ -147,7 +147,7 @@ struct ReferenceTracer::Vertex {
 
   Vec3 reflected(const Vec3& direction) const {
     const Vec3 wi = frame.toLocal(direction);
-    return wi.z > 0 && glm::dot(direction, normal) > 0 ? bsdf.eval(wo, wi) * wi.z : Vec3(0);
+    return wi.z > 0 && glm::dot(direction, normal) > 0 ? bsdf.eval(wo, wi).value * wi.z : Vec3(0);
   }
 };
 

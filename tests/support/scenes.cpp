@@ -196,7 +196,7 @@ Camera perspective(const Vec3& from, const Vec3& to, float verticalFov) {
   const Vec3 up = std::abs(camera.back.y) > 0.99f ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
   camera.right = glm::normalize(glm::cross(up, camera.back));
   camera.up = glm::cross(camera.back, camera.right);
-  camera.verticalFov = verticalFov;
+  camera.halfHeight = std::tan(0.5f * verticalFov);
   return camera;
 }
 

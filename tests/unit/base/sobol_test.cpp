@@ -16,7 +16,7 @@ using Point = std::array<std::uint32_t, 4>;
 
 std::vector<Point> prefix(unsigned log2Count, std::uint64_t seed, std::uint32_t first = 0) {
   std::vector<Point> points;
-  for (std::uint32_t i = 0; i < (1u << log2Count); ++i) points.push_back(owenSobol4(first + i, seed));
+  for (std::uint32_t i = 0; i < (1u << log2Count); ++i) points.push_back(owenSobol4(reverseBits(first + i), seed));
   return points;
 }
 
@@ -105,7 +105,7 @@ TEST(Sobol, FirstMillionPointsAreANet) {
 
 TEST(Sobol, SeedsScrambleDifferently) {
   std::set<Point> firsts;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) firsts.insert(owenSobol4(0, seed));
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) firsts.insert(owenSobol4(reverseBits(0), seed));
   EXPECT_EQ(firsts.size(), 1000u);
 }
 
@@ -113,7 +113,7 @@ TEST(Sobol, OnePointIsUniformOverSeeds) {
   constexpr std::size_t kBins = 64;
   for (std::size_t d = 0; d < 4; ++d) {
     std::vector<std::uint64_t> counts(kBins);
-    for (std::uint64_t seed = 0; seed < 100'000; ++seed) ++counts[owenSobol4(3, mixBits(seed))[d] >> 26];
+    for (std::uint64_t seed = 0; seed < 100'000; ++seed) ++counts[owenSobol4(reverseBits(3), mixBits(seed))[d] >> 26];
     EXPECT_GT(chiSquareTest(counts, std::vector<double>(kBins, 1.0)).p, sidak(kAlpha, 4)) << d;
   }
 }
@@ -122,8 +122,8 @@ TEST(Sobol, ScramblesOfTwoSeedsAreUncorrelated) {
   // The product of two centred uniform numbers has variance 1/144.
   Moments products;
   for (std::uint64_t seed = 0; seed < 100'000; ++seed) {
-    products.add((toUnitFloat(owenSobol4(7, mixBits(seed))[0]) - 0.5) *
-                 (toUnitFloat(owenSobol4(7, mixBits(seed + 1'000'000))[0]) - 0.5));
+    products.add((toUnitFloat(owenSobol4(reverseBits(7), mixBits(seed))[0]) - 0.5) *
+                 (toUnitFloat(owenSobol4(reverseBits(7), mixBits(seed + 1'000'000))[0]) - 0.5));
   }
   EXPECT_LT(std::abs(zScore(products.mean(), products.meanVariance(), 0, 0)), criticalZ(1));
 }

@@ -66,7 +66,7 @@ TEST(Bsdf, LambertianIsExactlyItsAlbedo) {
   const Bsdf bsdf = bsdfOf(lambertian({0.2f, 0.5f, 1.0f}));
   for (const float cosine : kCosines) {
     for (const Vec3& wi : {direction(0.3f), direction(0.9f, 2)}) {
-      const Vec3 f = bsdf.eval(direction(cosine), wi) * kPi;
+      const Vec3 f = bsdf.eval(direction(cosine), wi).value * kPi;
       EXPECT_NEAR(f.x, 0.2f, 1e-7);
       EXPECT_NEAR(f.y, 0.5f, 1e-7);
       EXPECT_NEAR(f.z, 1.0f, 1e-6);
@@ -84,7 +84,7 @@ TEST(Bsdf, IsReciprocal) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 a = direction(rng.uniform(0.02f, 1), rng.uniform(0, 6)),
                  b = direction(rng.uniform(0.02f, 1), rng.uniform(0, 6));
-      const float there = bsdf.eval(a, b).y, back = bsdf.eval(b, a).y;
+      const float there = bsdf.eval(a, b).value.y, back = bsdf.eval(b, a).value.y;
       // Roundings of the half vector, relative to a lobe at least 10⁻³ wide.
       ASSERT_NEAR(there, back, 1e-4f * (there + back)) << name;
     }
@@ -128,8 +128,8 @@ TEST(Bsdf, SampleCarriesWhatEvalAndPdfSay) {
       ASSERT_GT(sample->pdf, 0) << name;
       ASSERT_GT(sample->wi.z, 0) << name;
       ASSERT_NEAR(glm::length(sample->wi), 1, 1e-4) << name;
-      ASSERT_EQ(sample->pdf, bsdf.pdf(wo, sample->wi)) << name;
-      ASSERT_EQ(sample->value, bsdf.eval(wo, sample->wi)) << name;
+      ASSERT_EQ(sample->pdf, bsdf.eval(wo, sample->wi).pdf) << name;
+      ASSERT_EQ(sample->value, bsdf.eval(wo, sample->wi).value) << name;
     }
   }
 }
@@ -154,7 +154,7 @@ TEST(Bsdf, SamplesAreDistributedByThePdf) {
                                     2 * kPi * (static_cast<float>(x) + 0.5f) / (kColumns * kCells));
           const double cell = 2 * std::numbers::pi / (kRows * kCells) / (kColumns * kCells);
           expected[static_cast<std::size_t>((y / kCells) * kColumns + x / kCells)] +=
-              static_cast<double>(bsdf.pdf(wo, wi)) * cell;
+              static_cast<double>(bsdf.eval(wo, wi).pdf) * cell;
         }
       }
       double inside = 0;
@@ -191,9 +191,9 @@ TEST(Bsdf, SamplesAreDistributedByThePdf) {
 
 TEST(Bsdf, IsBlackThroughTheSurface) {
   const Bsdf bsdf = bsdfOf(dielectric(0.5f));
-  EXPECT_EQ(bsdf.eval(direction(0.5f), direction(-0.5f)), Vec3(0));
-  EXPECT_EQ(bsdf.pdf(direction(0.5f), direction(-0.5f)), 0);
-  EXPECT_EQ(bsdf.pdf(direction(-0.5f), direction(0.5f)), 0);
+  EXPECT_EQ(bsdf.eval(direction(0.5f), direction(-0.5f)).value, Vec3(0));
+  EXPECT_EQ(bsdf.eval(direction(0.5f), direction(-0.5f)).pdf, 0);
+  EXPECT_EQ(bsdf.eval(direction(-0.5f), direction(0.5f)).pdf, 0);
   EXPECT_FALSE(bsdf.sample(direction(-0.5f), 0.5f, Vec2(0.5f)));
 }
 
@@ -204,9 +204,9 @@ TEST(Bsdf, IsFiniteAtGrazingAngles) {
     for (const float out : {1e-18f, 1e-7f, 1e-3f}) {
       for (const float in : {1e-18f, 1e-7f, 1e-3f, 1.0f}) {
         for (const float azimuth : {0.4f, 0.4f + kPi}) {
-          const Vec3 f = bsdf.eval(direction(out), direction(in, azimuth)) * in;
+          const Vec3 f = bsdf.eval(direction(out), direction(in, azimuth)).value * in;
           EXPECT_TRUE(isFinite(f)) << name << " " << out << " " << in;
-          EXPECT_FALSE(std::isnan(bsdf.pdf(direction(out), direction(in, azimuth)))) << name << " " << out << " " << in;
+          EXPECT_FALSE(std::isnan(bsdf.eval(direction(out), direction(in, azimuth)).pdf)) << name << " " << out << " " << in;
         }
       }
       for (const Vec2& u : {Vec2(0), Vec2(0.5f), Vec2(0x1.fffffep-1f), Vec2(0, 0x1.fffffep-1f)}) {

@@ -22,7 +22,7 @@ TEST(Camera, LooksAlongMinusZThroughTheMiddleOfTheFilm) {
 
 TEST(Camera, KeepsTheVerticalAngleWhateverTheAspect) {
   Camera camera;
-  camera.verticalFov = 1.2f;
+  camera.halfHeight = std::tan(0.6f);
   for (const int width : {100, 360, 2000}) {
     const Ray top = cameraRay(camera, {0.5f * static_cast<float>(width), 0}, {width, 360});
     expectNear(top.direction, {0, std::sin(0.6f), -std::cos(0.6f)});
@@ -60,7 +60,7 @@ TEST(DefaultCamera, SeesTheWholeBoxAtAnyScale) {
       const Vec3 p{corner & 1 ? box.lower.x : box.upper.x, corner & 2 ? box.lower.y : box.upper.y,
                    corner & 4 ? box.lower.z : box.upper.z};
       const Vec3 d = p - camera.position;
-      EXPECT_GT(-glm::dot(d, camera.back), std::abs(glm::dot(d, camera.up)) / std::tan(0.5f * camera.verticalFov));
+      EXPECT_GT(-glm::dot(d, camera.back), std::abs(glm::dot(d, camera.up)) / camera.halfHeight);
     }
   }
 }

@@ -328,7 +328,7 @@ TEST_F(GltfLoader, PlacesCamerasWithOrthonormalAxesAndNamesOfTheirOwn) {
   EXPECT_EQ(scene.cameras[2].name, "camera");
   expectNear(scene.cameras[0].position, {1, 2, 3});
   expectNear(scene.cameras[0].right, {1, 0, 0});  // a mirrored node does not mirror the picture
-  EXPECT_EQ(scene.cameras[0].verticalFov, 0.5f);
+  EXPECT_FLOAT_EQ(scene.cameras[0].halfHeight, std::tan(0.25f));
   EXPECT_TRUE(scene.cameras[2].orthographic);
   EXPECT_EQ(scene.cameras[2].halfHeight, 2);
   expectNear(scene.cameras[2].back, {1, 0, 0});
