@@ -79,7 +79,8 @@ class GlbBuilder {
     enum class Kind : std::uint8_t { kPoint, kSpot, kDirectional } kind;
     float r, g, b;
     float inner, outer;
-    auto operator<=>(const LightDefinition&) const = default;
+    // clang-tidy 14 takes the 0 that comparisons are written with for a pointer.
+    auto operator<=>(const LightDefinition&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   struct LightNode {
     Vec3 position;

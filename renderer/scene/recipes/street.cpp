@@ -26,7 +26,7 @@ struct House {
   int columns;  ///< of windows
   Paint wall;
   float height() const { return kShopStorey + kStorey * static_cast<float>(storeys); }
-  std::size_t windows() const { return static_cast<std::size_t>(storeys * columns); }
+  std::size_t windows() const { return static_cast<std::size_t>(storeys) * static_cast<std::size_t>(columns); }
   float distance() const { return std::abs(front.origin.z); }
 };
 
@@ -105,7 +105,9 @@ void Street::addGround() {
     addBox(palette_.flat(Paint::kConcrete), {}, {x0, 0, far}, {x1, kKerb, near}, kBottom);
   }
   addBox(palette_.flat(Paint::kConcrete), {}, {-kReach, 0, far - 20}, {kReach, kKerb - 0.002f, far}, kBottom);
-  for (float z = near - 2; z > far + 4; z -= 6) {
+  const int dashes = static_cast<int>(std::ceil((near - far - 6) / 6));
+  for (int i = 0; i < dashes; ++i) {
+    const float z = near - 2 - 6 * static_cast<float>(i);
     addBox(palette_.flat(Paint::kPaper), {}, {-0.08f, 0, z - 2.4f}, {0.08f, 0.006f, z}, kBottom);
   }
 }
@@ -218,8 +220,9 @@ void Street::addLampPosts() {
   const std::size_t most =
       std::min<std::size_t>(total_ / 5, 20'000);  // a node each: keeps files of a million lights small
   std::size_t lit = 0;
-  int i = 0;
-  for (float z = kBehindCamera - 6; z > -length_; z -= kSpacing / 2, ++i) {
+  const int posts = static_cast<int>(std::ceil((kBehindCamera - 6 + length_) / (kSpacing / 2)));
+  for (int i = 0; i < posts; ++i) {
+    const float z = kBehindCamera - 6 - kSpacing / 2 * static_cast<float>(i);
     const float side = i % 2 == 0 ? 1.0f : -1.0f;
     const Pose foot{{side * (kHalfRoad + 0.5f), kKerb, z}, {-side, 0, 0}};  // local x over the road
     Surface& metal = palette_.flat(Paint::kBlackMetal);
