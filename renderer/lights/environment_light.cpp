@@ -155,7 +155,8 @@ std::optional<std::size_t> EnvironmentLight::tileAt(Vec2 uv) const {
 }
 
 std::size_t EnvironmentLight::bytes() const {
-  std::size_t sum = texelSolidAngles_.capacity() * sizeof(float) + tiles_.capacity() * sizeof(EnvironmentTile) + nodes_.capacity() * sizeof(std::int32_t);
+  std::size_t sum = texelSolidAngles_.capacity() * sizeof(float) + tiles_.capacity() * sizeof(EnvironmentTile) +
+                    nodes_.capacity() * sizeof(std::int32_t);
   for (const Level& level : levels_) sum += level.weights.capacity() * sizeof(float);
   return sum;
 }

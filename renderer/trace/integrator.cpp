@@ -106,8 +106,8 @@ class Path {
     if (bounce_) {
       const std::optional<LightId> light = context_.lights.environmentLightAt(uv);
       if (!light) return;
-      weight = powerHeuristic(bounce_->pdf, context_.sampler.pmf(bounce_->from, *light) *
-                                                context_.lights.environmentPdf(*light, uv));
+      weight = powerHeuristic(bounce_->pdf,
+                              context_.sampler.pmf(bounce_->from, *light) * context_.lights.environmentPdf(*light, uv));
     }
     result_.radiance += throughput_ * weight * environmentRadiance(*context_.scene.environment, uv);
   }

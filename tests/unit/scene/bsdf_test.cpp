@@ -206,7 +206,8 @@ TEST(Bsdf, IsFiniteAtGrazingAngles) {
         for (const float azimuth : {0.4f, 0.4f + kPi}) {
           const Vec3 f = bsdf.eval(direction(out), direction(in, azimuth)).value * in;
           EXPECT_TRUE(isFinite(f)) << name << " " << out << " " << in;
-          EXPECT_FALSE(std::isnan(bsdf.eval(direction(out), direction(in, azimuth)).pdf)) << name << " " << out << " " << in;
+          EXPECT_FALSE(std::isnan(bsdf.eval(direction(out), direction(in, azimuth)).pdf))
+              << name << " " << out << " " << in;
         }
       }
       for (const Vec2& u : {Vec2(0), Vec2(0.5f), Vec2(0x1.fffffep-1f), Vec2(0, 0x1.fffffep-1f)}) {
