@@ -9,6 +9,48 @@ namespace {
 /// side that it shows vary over the cell.
 constexpr float kNearShare = 0.3f;
 
+/// A region that is one point, known to be one when the code is compiled: the inner loop of every descent.
+struct PointRegion {
+  const Vec3& centre;
+  static constexpr float radius = 0;
+};
+
+/// localCluster() into `cluster`, of which only the node is set so far; false: nothing.
+template <class AnyRegion>
+inline bool estimateLocal(const LightTreeNode& node, const AnyRegion& region, Cluster& cluster) {
+  const Vec3 halfDiagonal = 0.5f * node.upper() - 0.5f * node.lower();
+  const float clusterRadius = glm::length(halfDiagonal);
+  const Vec3 toCluster = (0.5f * node.upper() + 0.5f * node.lower()) - region.centre;
+  const float distance = glm::length(toCluster);
+  const float reach = region.radius + clusterRadius;
+
+  float cosine = 1;
+  if (reach < distance) {
+    const float perDistance = 1 / distance;
+    cluster.direction = toCluster * perDistance;
+    cluster.sinThetaU = reach * perDistance;
+    cluster.cosThetaU = safeSqrt(1 - cluster.sinThetaU * cluster.sinThetaU);
+    const Cone axes = node.axes();
+    float cosTheta = -glm::dot(axes.axis, cluster.direction);
+    if (node.twoSided()) cosTheta = std::abs(cosTheta);
+    const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
+    const float cosPastAxes = cosSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
+    const float sinPastAxes = sinSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
+    cosine = cosSubClamped(cosPastAxes, sinPastAxes, cluster.cosThetaU, cluster.sinThetaU);
+    if (cosine < node.cosThetaE() - kCosineMargin) return false;
+    cosine = std::max(cosine, kCosineMargin);
+  }
+  const float rho =
+      region.radius == 0 ? clusterRadius : std::sqrt(region.radius * region.radius + clusterRadius * clusterRadius);
+  const float mean = meanDistance(distance, rho);
+  cluster.meanDistance = mean;
+  // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
+  cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, std::numeric_limits<float>::max())
+                              : node.intensity();
+  if (!(cluster.estimate > 0)) cluster.estimate = std::numeric_limits<float>::min();
+  return true;
+}
+
 }  // namespace
 
 LightTrees::LightTrees(const Lights& lights)
@@ -26,36 +68,8 @@ TreeStatistics LightTrees::statistics() const {
 }
 
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
-  const LightTreeNode& node = tree.node(id);
-  const Vec3 halfDiagonal = 0.5f * node.upper() - 0.5f * node.lower();
-  const float clusterRadius = glm::length(halfDiagonal);
-  const Vec3 toCluster = (0.5f * node.upper() + 0.5f * node.lower()) - region.centre;
-  const float distance = glm::length(toCluster);
-  const float reach = region.radius + clusterRadius;
-
   Cluster cluster{id, false, 0, 0, Vec3(0, 0, 1), -1, 0};
-  float cosine = 1;
-  if (reach < distance) {
-    cluster.direction = toCluster / distance;
-    cluster.sinThetaU = reach / distance;
-    cluster.cosThetaU = safeSqrt(1 - cluster.sinThetaU * cluster.sinThetaU);
-    const Cone axes = node.axes();
-    float cosTheta = -glm::dot(axes.axis, cluster.direction);
-    if (node.twoSided()) cosTheta = std::abs(cosTheta);
-    const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
-    const float cosPastAxes = cosSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
-    const float sinPastAxes = sinSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
-    cosine = cosSubClamped(cosPastAxes, sinPastAxes, cluster.cosThetaU, cluster.sinThetaU);
-    if (cosine < node.cosThetaE() - kCosineMargin) return std::nullopt;
-    cosine = std::max(cosine, kCosineMargin);
-  }
-  const float rho = std::sqrt(region.radius * region.radius + clusterRadius * clusterRadius);
-  const float mean = meanDistance(distance, rho);
-  cluster.meanDistance = mean;
-  // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
-  cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, std::numeric_limits<float>::max())
-                              : node.intensity();
-  if (!(cluster.estimate > 0)) cluster.estimate = std::numeric_limits<float>::min();
+  if (!estimateLocal(tree.node(id), region, cluster)) return std::nullopt;
   return cluster;
 }
 
@@ -63,6 +77,16 @@ Cluster distantCluster(const LightTree& tree, NodeId id) {
   const LightTreeNode& node = tree.node(id);
   const Cone axes = node.axes();
   return {id, true, node.intensity(), kInfinity, -axes.axis, axes.cosTheta, axes.sinTheta};
+}
+
+float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n) {
+  Cluster cluster{id, false, 0, 0, Vec3(0, 0, 1), -1, 0};
+  if (distant) {
+    cluster = distantCluster(tree, id);
+  } else if (!estimateLocal(tree.node(id), PointRegion{p}, cluster)) {
+    return 0;
+  }
+  return cluster.estimate * receiverCosine(glm::dot(n, cluster.direction), cluster.cosThetaU, cluster.sinThetaU);
 }
 
 namespace {

@@ -59,6 +59,10 @@ struct Cluster {
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region);
 Cluster distantCluster(const LightTree& tree, NodeId id);
 
+/// Importance of a node at a point with unit normal n: its estimate there × receiverCosine. 0 only if no light of it can
+/// contribute.
+float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n);
+
 /// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a
 /// function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);

@@ -52,20 +52,12 @@ const LightTree& treeOf(const LightTrees& trees, bool distant) {
 
 }  // namespace
 
-float nodeImportance(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point) {
-  const std::optional<Cluster> cluster =
-      distant ? std::optional(distantCluster(tree, node)) : localCluster(tree, node, {point.p, 0});
-  if (!cluster) return 0;
-  return cluster->estimate *
-         receiverCosine(glm::dot(point.n, cluster->direction), cluster->cosThetaU, cluster->sinThetaU);
-}
-
 std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
                                            double u) {
   double pmf = 1;
   while (!tree.isLeaf(node)) {
-    const auto left = static_cast<double>(nodeImportance(tree, distant, tree.left(node), point));
-    const auto right = static_cast<double>(nodeImportance(tree, distant, tree.right(node), point));
+    const auto left = static_cast<double>(nodeImportance(tree, distant, tree.left(node), point.p, point.n));
+    const auto right = static_cast<double>(nodeImportance(tree, distant, tree.right(node), point.p, point.n));
     if (!(left + right > 0)) return std::nullopt;
     const double toLeft = left / (left + right);
     if (u < toLeft) {
@@ -85,8 +77,8 @@ std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, 
 double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf) {
   double pmf = 1;
   while (!tree.isLeaf(node)) {
-    const auto left = static_cast<double>(nodeImportance(tree, distant, tree.left(node), point));
-    const auto right = static_cast<double>(nodeImportance(tree, distant, tree.right(node), point));
+    const auto left = static_cast<double>(nodeImportance(tree, distant, tree.left(node), point.p, point.n));
+    const auto right = static_cast<double>(nodeImportance(tree, distant, tree.right(node), point.p, point.n));
     if (!(left + right > 0)) return 0;
     const bool toLeft = leaf < tree.node(tree.right(node)).firstLeaf();
     pmf *= (toLeft ? left : right) / (left + right);

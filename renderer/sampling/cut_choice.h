@@ -7,9 +7,6 @@
 
 namespace cellcut {
 
-/// Importance of a node at a point: its estimate there × receiverCosine. 0 only if no light of it can contribute.
-float nodeImportance(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point);
-
 /// A leaf below `node`, chosen child by child in proportion to importance.
 struct SampledLeaf {
   std::uint32_t leaf;

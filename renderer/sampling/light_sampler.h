@@ -28,7 +28,8 @@ struct SampledLight {
 class LightSampler {
  public:
   virtual ~LightSampler() = default;
-  /// Nothing when no light can reach the point; Σ pmf over all lights is 1 otherwise.
+  /// Nothing when no light can reach the point, and for a descent that ends where none of the lights below can; Σ pmf over
+  /// all lights is 1 less the probability of nothing.
   /// \param u  uniform in [0, 1)
   virtual std::optional<SampledLight> sample(const ShadingPoint& point, double u) const = 0;
   /// The probability that sample() returns `light` at this point.

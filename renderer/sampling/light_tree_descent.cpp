@@ -37,7 +37,7 @@ class LightTreeSampler final : public LightSampler {
   /// Probability of the local tree; negative when neither can contribute.
   double localProbability(const ShadingPoint& point) const {
     const auto importance = [&](const LightTree& tree, bool distant) {
-      return tree.empty() ? 0.0 : static_cast<double>(nodeImportance(tree, distant, tree.root(), point));
+      return tree.empty() ? 0.0 : static_cast<double>(nodeImportance(tree, distant, tree.root(), point.p, point.n));
     };
     const double local = importance(trees_.local, false), distant = importance(trees_.distant, true);
     return local + distant > 0 ? local / (local + distant) : -1;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kPiD = std::numbers::pi;
 constexpr float kAlbedo = 0.8f;
 
-class AnalyticScene : public testing::TestWithParam<StrategyName> {
+class AnalyticScene : public testing::TestWithParam<SamplerVariant> {
  protected:
   /// A Lambertian unit sphere in a square view that it just fills, seen along −z.
   static Scene sphere(const Material& material) {
@@ -26,6 +26,7 @@ class AnalyticScene : public testing::TestWithParam<StrategyName> {
     settings.width = settings.height = 64;
     settings.maxDepth = maxDepth;
     settings.strategy = GetParam().strategy;
+    settings.sampler = GetParam().settings;
     settings.seed = 4;
     return tilesOf(renderEstimates(scene, settings, byDepth(32, 512)), 1)[0];
   }
@@ -137,8 +138,8 @@ TEST_P(AnalyticScene, WhiteFurnaceIsWhite) {
   expectMean(scene, 1, 0.002, 60);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, AnalyticScene, testing::ValuesIn(kStrategies),
-                         [](const auto& info) { return strategyName(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Every, AnalyticScene, testing::ValuesIn(kSamplerVariants),
+                         variantName);
 
 }  // namespace
 }  // namespace cellcut::test

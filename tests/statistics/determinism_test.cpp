@@ -29,7 +29,7 @@ Scene hardScene() {
   return scene;
 }
 
-class Determinism : public testing::TestWithParam<StrategyName> {};
+class Determinism : public testing::TestWithParam<SamplerVariant> {};
 
 TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
   // Without it TBB starts no more threads than the machine has cores.
@@ -41,6 +41,7 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
     settings.height = 64;
     settings.maxDepth = 5;
     settings.strategy = GetParam().strategy;
+    settings.sampler = GetParam().settings;
     settings.threads = threads;
     settings.seed = 3;
     Renderer renderer(scene, settings);
@@ -63,8 +64,8 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Determinism, testing::ValuesIn(kStrategies),
-                         [](const auto& info) { return strategyName(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Every, Determinism, testing::ValuesIn(kSamplerVariants),
+                         variantName);
 
 }  // namespace
 }  // namespace cellcut::test

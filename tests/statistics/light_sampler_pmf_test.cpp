@@ -33,7 +33,7 @@ class LightSamplerPmf : public StrategyAndLights {
       SCOPED_TRACE(std::to_string(count) + " lights");
       const Scene scene = stage(mix(), count, seed());
       const Lights lights(scene);
-      const auto sampler = makeLightSampler(strategy(), lights);
+      const auto sampler = samplerOf(lights);
       for (const ShadingPoint& point : pathVertices(scene, byDepth(6, 64), seed())) check(lights, *sampler, point);
     }
   }
@@ -45,7 +45,7 @@ TEST_P(LightSamplerPmf, SumsToOneOrNoLightReachesThePoint) {
     const double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
     // Each of at most 1024 probabilities is rounded to a float: 6e-8 of it.
     constexpr double rounding = 1e-5;
-    if (strategy() != Strategy::kLightTree) {
+    if (!variant().canEndInNothing()) {
       EXPECT_NEAR(sum, sampler.sample(point, 0.5).has_value() ? 1 : 0, rounding);
       return;
     }
@@ -91,8 +91,7 @@ TEST_P(LightSamplerPmf, IsPositiveForEveryLightThatContributes) {
 }
 
 TEST_P(LightSamplerPmf, GivesNoSampleOnlyWhereNoLightContributes) {
-  if (strategy() == Strategy::kLightTree)
-    return;  // a descent may end in nothing anywhere: SumsToOneOrNoLightReachesThePoint
+  if (variant().canEndInNothing()) return;  // SumsToOneOrNoLightReachesThePoint
   forEachPoint({1, 2, 33}, [](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
     if (sampler.sample(point, 0.5)) return;
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -104,7 +103,7 @@ TEST_P(LightSamplerPmf, GivesNoSampleOnlyWhereNoLightContributes) {
 TEST_P(LightSamplerPmf, AgreesWithTheCountsOfSamples) {
   const Scene scene = stage(mix(), 33, seed());
   const Lights lights(scene);
-  const auto sampler = makeLightSampler(strategy(), lights);
+  const auto sampler = samplerOf(lights);
   const std::vector<ShadingPoint> points = pathVertices(scene, byDepth(4, 64), seed());
   const std::size_t n = sampleShare(byDepth(100'000, std::max<std::size_t>(1'000'000, 100 * lights.size())));
   Rng rng(hashOf(seed(), 2));

@@ -34,10 +34,11 @@ class Pictures : public testing::TestWithParam<std::tuple<LightMix, int>> {
 void expectAllAgree(const Scene& scene, RenderSettings settings) {
   std::vector<std::pair<std::string, Image<Estimate>>> pictures;
   pictures.emplace_back("reference", referenceEstimates(scene, settings, referencePasses()));
-  for (const StrategyName& strategy : kStrategies) {
-    settings.strategy = strategy.strategy;
+  for (const SamplerVariant& variant : kSamplerVariants) {
+    settings.strategy = variant.strategy;
+    settings.sampler = variant.settings;
     ++settings.seed;  // no two pictures share random numbers
-    pictures.emplace_back(strategy.name, renderEstimates(scene, settings, passes()));
+    pictures.emplace_back(variant.name, renderEstimates(scene, settings, passes()));
   }
   const std::size_t pairs = pictures.size() * (pictures.size() - 1) / 2;
   for (std::size_t a = 0; a < pictures.size(); ++a) {

@@ -46,7 +46,7 @@ class UnbiasedAtPoints : public StrategyAndLights {
   /// Direct light at all receivers of a scene against that of another description of it.
   void expectReferenceOf(const Scene& scene, const Scene& referenceScene,
                          const std::vector<Receiver>& receivers) const {
-    const PointEstimator estimator(scene, strategy());
+    const PointEstimator estimator(scene, variant().strategy, variant().settings);
     PointTests tests(receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       tests.add(estimator.reflected(receivers[i], samples(), hashOf(seed(), i)),
@@ -107,7 +107,7 @@ TEST_P(UnbiasedAtPoints, CoincidentLightsAddUp) {
 
 CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(UnbiasedAtPoints);
 
-class QuadLight : public testing::TestWithParam<StrategyName> {};
+class QuadLight : public testing::TestWithParam<SamplerVariant> {};
 
 TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
   const std::vector<Receiver> receivers = randomReceivers(byDepth(4, 64), 5);
@@ -126,7 +126,7 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
        {std::pair(1, 1), std::pair(4, 4), std::pair(static_cast<int>(byDepth(8, 100)), 50)}) {
     SCOPED_TRACE(std::to_string(2 * columns * rows) + " triangles");
     const Scene scene = quad(columns, rows);
-    const PointEstimator estimator(scene, GetParam().strategy);
+    const PointEstimator estimator(scene, GetParam().strategy, GetParam().settings);
     PointTests tests(3 * receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       const std::size_t samples = byDepth(columns * rows > 100 ? 10'000 : 100'000, 65'536);
@@ -144,15 +144,15 @@ TEST_P(QuadLight, CoversTheHemisphereOfAPointCloseToIt) {
   addFacets(scene, {{Vec3(0), {0, 1, 0}}});
   addQuad(scene, addMaterial(scene, emitter(Vec3(1), false)), {-5, 1e-3f, -5}, {10, 0, 0}, {0, 0, 10});
   finish(scene);
-  const PointEstimator estimator(scene, GetParam().strategy);
+  const PointEstimator estimator(scene, GetParam().strategy, GetParam().settings);
   PointTests tests(1);
   // The camera ray starts beyond the quad otherwise.
   tests.add(estimator.reflected({Vec3(0), {0, 1, 0}}, sampleShare(100'000), 1, 1e-4f), 1);
   tests.finish(1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, QuadLight, testing::ValuesIn(kStrategies),
-                         [](const auto& info) { return strategyName(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Every, QuadLight, testing::ValuesIn(kSamplerVariants),
+                         variantName);
 
 }  // namespace
 }  // namespace cellcut::test

@@ -27,8 +27,8 @@ void addFacets(Scene& scene, const std::vector<Receiver>& receivers) {
   }
 }
 
-PointEstimator::PointEstimator(const Scene& scene, Strategy strategy)
-    : scene_(scene), accel_(scene), lights_(scene), sampler_(makeLightSampler(strategy, lights_)) {}
+PointEstimator::PointEstimator(const Scene& scene, Strategy strategy, const SamplerSettings& settings)
+    : scene_(scene), accel_(scene), lights_(scene), sampler_(makeLightSampler(strategy, lights_, settings)) {}
 
 Moments PointEstimator::reflected(const Receiver& receiver, std::size_t samples, std::uint64_t seed, float from) const {
   const PathContext context{scene_, accel_, lights_, *sampler_, 1, true};

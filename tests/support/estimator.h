@@ -25,7 +25,7 @@ void addFacets(Scene& scene, const std::vector<Receiver>& receivers);
 class PointEstimator {
  public:
   /// The scene must outlive the estimator.
-  PointEstimator(const Scene& scene, Strategy strategy);
+  PointEstimator(const Scene& scene, Strategy strategy, const SamplerSettings& settings = {});
   const Lights& lights() const { return lights_; }
   /// Luminance of direct light that a receiver reflects along its normal, W/(m² sr): E/π of a white facet.
   /// \param from  metres before the receiver where the camera rays start

@@ -5,29 +5,62 @@
 #include "renderer/sampling/light_sampler.h"
 #include "tests/support/scenes.h"
 
+#include <array>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
 namespace cellcut::test {
 
-/// A strategy of kStrategies and a set of lights.
-class StrategyAndLights : public testing::TestWithParam<std::tuple<StrategyName, LightMix>> {
+/// A strategy as the proofs run it.
+struct SamplerVariant {
+  std::string_view name;
+  Strategy strategy;
+  SamplerSettings settings{};
+
+  /// A descent by bounds can end where no light is left.
+  bool canEndInNothing() const {
+    return strategy == Strategy::kLightTree ||
+           ((strategy == Strategy::kCellCut || strategy == Strategy::kPointCut) &&
+            settings.inCluster == InCluster::kDescent);
+  }
+  friend void PrintTo(const SamplerVariant& variant, std::ostream* stream) { *stream << variant.name; }
+};
+
+/// Every strategy, and those with cuts of so few clusters that most hold several lights.
+inline constexpr std::array kSamplerVariants{
+    SamplerVariant{"uniform", Strategy::kUniform},
+    SamplerVariant{"power", Strategy::kPower},
+    SamplerVariant{"proportional", Strategy::kProportional},
+    SamplerVariant{"cell_cut", Strategy::kCellCut},
+    SamplerVariant{"cell_cut_few", Strategy::kCellCut, {.maxCut = 6, .gridResolution = 4}},
+    SamplerVariant{"cell_cut_few_intensity",
+                   Strategy::kCellCut,
+                   {.maxCut = 6, .gridResolution = 4, .inCluster = InCluster::kIntensity}},
+    SamplerVariant{"point_cut", Strategy::kPointCut},
+    SamplerVariant{"point_cut_few_intensity", Strategy::kPointCut, {.maxCut = 6, .inCluster = InCluster::kIntensity}},
+    SamplerVariant{"light_tree", Strategy::kLightTree},
+};
+
+/// A variant and a set of lights.
+class StrategyAndLights : public testing::TestWithParam<std::tuple<SamplerVariant, LightMix>> {
  protected:
-  Strategy strategy() const { return std::get<0>(GetParam()).strategy; }
+  const SamplerVariant& variant() const { return std::get<0>(GetParam()); }
+  std::unique_ptr<LightSampler> samplerOf(const Lights& lights) const {
+    return makeLightSampler(variant().strategy, lights, variant().settings);
+  }
   LightMix mix() const { return std::get<1>(GetParam()); }
   /// Differs from mix to mix, so that no two sets are alike.
   std::uint64_t seed() const { return 1000 + static_cast<std::uint64_t>(mix()); }
 };
 
-/// "cell_cut_All": names of GoogleTest hold no hyphen.
-inline std::string strategyName(std::string_view name) {
-  std::string result(name);
-  std::replace(result.begin(), result.end(), '-', '_');
-  return result;
+/// Names the tests of a suite over kSamplerVariants.
+inline std::string variantName(const testing::TestParamInfo<SamplerVariant>& info) {
+  return std::string(info.param.name);
 }
+/// "cell_cut_All"
 inline std::string strategyAndLightsName(const testing::TestParamInfo<StrategyAndLights::ParamType>& info) {
-  return strategyName(std::get<0>(info.param).name) + "_" + nameOf(std::get<1>(info.param));
+  return std::string(std::get<0>(info.param).name) + "_" + nameOf(std::get<1>(info.param));
 }
 
 }  // namespace cellcut::test
@@ -36,5 +69,5 @@ inline std::string strategyAndLightsName(const testing::TestParamInfo<StrategyAn
 #define CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(Fixture)                                                          \
   INSTANTIATE_TEST_SUITE_P(                                                                                     \
       Every, Fixture,                                                                                           \
-      testing::Combine(testing::ValuesIn(cellcut::kStrategies), testing::ValuesIn(cellcut::test::kLightMixes)), \
+      testing::Combine(testing::ValuesIn(cellcut::test::kSamplerVariants), testing::ValuesIn(cellcut::test::kLightMixes)), \
       cellcut::test::strategyAndLightsName)

@@ -144,7 +144,7 @@ TEST(Cut, WeightOfAPointsOwnRegionIsTheImportance) {
   const double sum = clusterWeights(cut.clusters(), point.p, point.n, weights.data(), sums.data());
   for (const Cut::Member& m : cut.members()) {
     if (m.slot < cut.clusters().nearSlot(0)) continue;
-    EXPECT_NEAR(weights[m.slot], nodeImportance(many.trees.local, false, m.node, point), 1e-5 * sum);
+    EXPECT_NEAR(weights[m.slot], nodeImportance(many.trees.local, false, m.node, point.p, point.n), 1e-5 * sum);
   }
 }
 
