@@ -1,5 +1,7 @@
 #include "renderer/lights/light_tree.h"
 
+#include "renderer/base/octahedral.h"
+
 #include <array>
 #include <numeric>
 
@@ -158,24 +160,6 @@ class Builder {
   std::vector<BuildLight>& lights_;
   std::vector<LightTreeNode>& nodes_;
 };
-
-/// Unit vector ↔ two coordinates in [−1, 1]. Source: Cigolle et al. 2014, "A Survey of Efficient Representations for
-/// Independent Unit Vectors".
-Vec2 octahedral(const Vec3& v) {
-  const float sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-  const Vec2 p = Vec2(v.x, v.y) / sum;
-  if (v.z >= 0) return p;
-  return {std::copysign(1 - std::abs(p.y), p.x), std::copysign(1 - std::abs(p.x), p.y)};
-}
-
-Vec3 fromOctahedral(Vec2 p) {
-  Vec3 v(p.x, p.y, 1 - std::abs(p.x) - std::abs(p.y));
-  if (v.z < 0) {
-    v.x = std::copysign(1 - std::abs(p.y), p.x);
-    v.y = std::copysign(1 - std::abs(p.x), p.y);
-  }
-  return glm::normalize(v);
-}
 
 std::int16_t toSigned16(float x) {
   return static_cast<std::int16_t>(std::lround(x * 32767));

@@ -17,16 +17,19 @@ class AliasTable {
   explicit AliasTable(std::span<const double> weights);
 
   bool empty() const { return bins_.empty(); }
+  struct Sample {
+    std::size_t index;  ///< its weight is > 0
+    double rest;        ///< uniform in [0, 1) and independent of the index
+  };
   /// \param u  in [0, 1) \pre !empty()
-  /// \return an index whose weight is > 0
-  std::size_t sample(double u) const;
-  double pmf(std::size_t i) const { return empty() ? 0.0 : bins_[i].pmf; }
+  Sample sample(double u) const;
+  float pmf(std::size_t i) const { return empty() ? 0.0f : bins_[i].pmf; }
   std::size_t bytes() const { return bins_.capacity() * sizeof(Bin); }
 
  private:
   struct Bin {
-    double own;  ///< share of the bin that is its own
-    double pmf;
+    float own;  ///< share of the bin that is its own
+    float pmf;
     std::uint32_t alias;  ///< who has the rest
   };
   std::vector<Bin> bins_;

@@ -1,5 +1,6 @@
 #include "renderer/sampling/cell_cut.h"
 
+#include "renderer/sampling/facing.h"
 #include "renderer/sampling/strategies.h"
 
 #include <chrono>
@@ -7,7 +8,22 @@
 namespace cellcut {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Adds the nanoseconds that it lives to a counter.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::atomic<std::uint64_t>& sum) : sum_(sum) {}
+  ~Stopwatch() {
+    const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start_);
+    sum_.fetch_add(static_cast<std::uint64_t>(elapsed.count()), std::memory_order_relaxed);
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::atomic<std::uint64_t>& sum_;
+  Clock::time_point start_ = Clock::now();
+};
 
 }  // namespace
 
@@ -18,31 +34,46 @@ CellCutSampler::CellCutSampler(const Lights& lights, const SamplerSettings& sett
       cells_(settings.cellMemory) {}
 
 Cut CellCutSampler::makeCut(const Region& region) const {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch(makeNanoseconds_);
   std::vector<Cluster> clusters;
   findCut(trees_, region, {settings_.threshold, settings_.maxCut}, clusters);
-  Cut cut(trees_, region, clusters);
-  const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
-  makeNanoseconds_.fetch_add(static_cast<std::uint64_t>(elapsed.count()), std::memory_order_relaxed);
-  return cut;
+  return Cut(trees_, region, clusters);
+}
+
+FarChoice CellCutSampler::makeFarChoice(const Cut& cut, std::size_t facing) const {
+  const Stopwatch stopwatch(makeNanoseconds_);
+  return cut.makeFarChoice(facing);
 }
 
 template <class Use>
-auto CellCutSampler::withCut(const Vec3& p, const Use& use) const {
-  const std::optional<CellCoordinates> cell = grid_.cellOf(p);
+auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
+  const std::optional<CellCoordinates> cell = grid_.cellOf(point.p);
   // Past the range of cells every point is a cell of its own.
-  if (!cell) return use(makeCut({p, 0}));
-  if (const Cut* cut = cells_.find(*cell)) return use(*cut);
-  if (const Cut* cut = cells_.findOrMake(*cell, [&] { return makeCut(grid_.region(*cell)); })) return use(*cut);
-  return use(makeCut(grid_.region(*cell)));
+  if (!cell) return use(makeCut({point.p, 0}), FarChoice());
+  const Cut* cut = cells_.find(*cell);
+  if (!cut) cut = cells_.findOrMake(*cell, [&] { return makeCut(grid_.region(*cell)); });
+  const std::size_t facing = facingOf(point.n);
+  if (!cut) {
+    const Cut own = makeCut(grid_.region(*cell));
+    return use(own, makeFarChoice(own, facing));
+  }
+  if (cut->farCount() == 0) return use(*cut, FarChoice());
+  if (const FarChoice* far = cut->farChoice(facing)) return use(*cut, *far);
+  FarChoice made = makeFarChoice(*cut, facing);
+  if (!cells_.reserve(made.bytes())) return use(*cut, made);
+  return use(*cut, *cut->keep(facing, std::move(made)));
 }
 
 std::optional<SampledLight> CellCutSampler::sample(const ShadingPoint& point, double u) const {
-  return withCut(point.p, [&](const Cut& cut) { return sampleCut(trees_, cut, settings_.inCluster, point, u); });
+  return withCut(point, [&](const Cut& cut, const FarChoice& far) {
+    return sampleCut(trees_, cut, far, settings_.inCluster, point, u);
+  });
 }
 
 float CellCutSampler::pmf(const ShadingPoint& point, LightId light) const {
-  return withCut(point.p, [&](const Cut& cut) { return pmfInCut(trees_, cut, settings_.inCluster, point, light); });
+  return withCut(point, [&](const Cut& cut, const FarChoice& far) {
+    return pmfInCut(trees_, cut, far, settings_.inCluster, point, light);
+  });
 }
 
 std::size_t CellCutSampler::bytes() const {

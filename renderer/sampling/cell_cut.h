@@ -26,9 +26,10 @@ class CellCutSampler final : public LightSampler {
   const Cut* find(const CellCoordinates& cell) const { return cells_.find(cell); }
 
  private:
-  /// Calls `use` with the cut of the cell around p.
+  /// Calls `use` with the cut of the cell around a point and its choice among far clusters.
   template <class Use>
-  auto withCut(const Vec3& p, const Use& use) const;
+  auto withCut(const ShadingPoint& point, const Use& use) const;
+  FarChoice makeFarChoice(const Cut& cut, std::size_t facing) const;
   Cut makeCut(const Region& region) const;
 
   LightTrees trees_;

@@ -131,6 +131,12 @@ const Cut* CellTable::findOrMake(const CellCoordinates& cell, const std::functio
   return nullptr;
 }
 
+bool CellTable::reserve(std::size_t bytes) {
+  if (this->bytes() >= maxBytes_) return false;
+  bytes_.fetch_add(bytes, std::memory_order_relaxed);
+  return true;
+}
+
 const Cut* CellTable::find(const CellCoordinates& cell) const {
   const std::uint64_t key = keyOf(cell);
   const std::size_t mask = slots_.size() - 1;

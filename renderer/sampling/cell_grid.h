@@ -60,6 +60,8 @@ class CellTable {
   /// The cell's cut: found, or made by `make` once for all threads. Null when the memory is used up: the caller makes
   /// its own.
   const Cut* findOrMake(const CellCoordinates& cell, const std::function<Cut()>& make);
+  /// Takes memory of the table's share for something that belongs to a kept cut; false when it is used up.
+  bool reserve(std::size_t bytes);
   /// The cell's cut if it was made.
   const Cut* find(const CellCoordinates& cell) const;
 

@@ -1,6 +1,9 @@
 #include "renderer/sampling/cut.h"
 
+#include "renderer/sampling/facing.h"
+
 #include <algorithm>
+#include <numeric>
 
 namespace cellcut {
 namespace {
@@ -170,71 +173,117 @@ void findCut(const LightTrees& trees, const Region& region, const CutSettings& s
   search.take(cut);
 }
 
+namespace {
+
+/// Mean of max(0, c) over cosines c spread evenly over [cosTheta − spread, cosTheta + spread]: milder than a bound, and 0
+/// only where the largest of them is below the horizon.
+double meanClampedCosine(float cosTheta, float spread) {
+  const double c = static_cast<double>(cosTheta + kCosineMargin), s = static_cast<double>(spread);
+  if (c >= s) return c;
+  return c > -s ? (c + s) * (c + s) / (4 * s) : 0.0;
+}
+
+}  // namespace
+
+FarChoice::FarChoice(std::span<const double> weights)
+    : table_(weights), sum_(std::accumulate(weights.begin(), weights.end(), 0.0)) {}
+
 Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters) {
-  const auto isNear = [&](const Cluster& c) { return !c.distant && region.radius > kNearShare * c.meanDistance; };
-  const auto nearCount = static_cast<std::size_t>(std::count_if(clusters.begin(), clusters.end(), isNear));
-  clusters_.far = BlockedFloats(clusters.size() - nearCount, ClusterArrays::kFarFields);
-  clusters_.near = BlockedFloats(nearCount, ClusterArrays::kNearFields);
-  members_.reserve(clusters.size());
-  memberOfSlot_.resize(clusters_.blocks() * kClusterBlock);
+  const auto isNear = [&](const Cluster& c) {
+    return region.radius == 0 || (!c.distant && region.radius > kNearShare * c.meanDistance);
+  };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
-  std::size_t far = 0, near = 0;
+  const auto nodeOf = [&](const Cluster& c) -> const LightTreeNode& {
+    return (c.distant ? trees.distant : trees.local).node(c.node);
+  };
+  const auto addMember = [&](const Cluster& c) {
+    members_.push_back({c.node, c.distant, nodeOf(c).firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
+  };
+  members_.reserve(clusters.size());
   for (const Cluster& c : clusters) {
-    const LightTreeNode& node = (c.distant ? trees.distant : trees.local).node(c.node);
-    std::size_t slot;
-    if (isNear(c)) {
-      slot = clusters_.nearSlot(near);
-      cacheNear(node, near++);
-    } else {
-      slot = far;
-      cacheFar(c, far++);
-    }
-    memberOfSlot_[slot] = static_cast<std::uint16_t>(members_.size());
-    members_.push_back(
-        {c.node, c.distant, node.firstLeaf() + (c.distant ? localLeaves : 0), static_cast<std::uint32_t>(slot)});
+    if (isNear(c)) continue;
+    far_.push_back({c.estimate, c.direction, c.cosThetaU, c.sinThetaU});
+    addMember(c);
   }
+  near_ = BlockedFloats(clusters.size() - far_.size(), kNearFields);
+  for (const Cluster& c : clusters) {
+    if (!isNear(c)) continue;
+    addNear(nodeOf(c), members_.size() - far_.size());
+    addMember(c);
+  }
+  if (!far_.empty()) choices_ = std::make_unique<std::atomic<const FarChoice*>[]>(kFacings);
 }
 
-void Cut::cacheFar(const Cluster& c, std::size_t i) {
-  const auto set = [&](ClusterArrays::FarField field, float value) { clusters_.far.field(field)[i] = value; };
-  set(ClusterArrays::kEstimate, c.estimate);
-  set(ClusterArrays::kDirectionX, c.direction.x);
-  set(ClusterArrays::kDirectionY, c.direction.y);
-  set(ClusterArrays::kDirectionZ, c.direction.z);
-  set(ClusterArrays::kCosThetaU, c.cosThetaU);
-  set(ClusterArrays::kSinThetaU, c.sinThetaU);
+Cut::Cut(Cut&& other) noexcept = default;
+
+Cut::~Cut() {
+  if (!choices_) return;
+  for (std::size_t i = 0; i < kFacings; ++i) delete choices_[i].load(std::memory_order_relaxed);
 }
 
-void Cut::cacheNear(const LightTreeNode& node, std::size_t i) {
-  const auto set = [&](ClusterArrays::NearField field, float value) { clusters_.near.field(field)[i] = value; };
+void Cut::addNear(const LightTreeNode& node, std::size_t i) {
+  const auto set = [&](NearField field, float value) { near_.field(field)[i] = value; };
   const Vec3 centre = 0.5f * node.upper() + 0.5f * node.lower();
   const Cone axes = node.axes();
-  set(ClusterArrays::kCentreX, centre.x);
-  set(ClusterArrays::kCentreY, centre.y);
-  set(ClusterArrays::kCentreZ, centre.z);
-  set(ClusterArrays::kRadius, glm::length(0.5f * node.upper() - 0.5f * node.lower()));
-  set(ClusterArrays::kIntensity, node.intensity());
-  set(ClusterArrays::kAxisX, axes.axis.x);
-  set(ClusterArrays::kAxisY, axes.axis.y);
-  set(ClusterArrays::kAxisZ, axes.axis.z);
-  set(ClusterArrays::kCosThetaO, axes.cosTheta);
-  set(ClusterArrays::kSinThetaO, axes.sinTheta);
-  set(ClusterArrays::kCosThetaE, node.cosThetaE());
-  set(ClusterArrays::kTwoSided, node.twoSided() ? 1.0f : 0.0f);
+  set(kCentreX, centre.x);
+  set(kCentreY, centre.y);
+  set(kCentreZ, centre.z);
+  set(kRadius, glm::length(0.5f * node.upper() - 0.5f * node.lower()));
+  set(kIntensity, node.intensity());
+  set(kAxisX, axes.axis.x);
+  set(kAxisY, axes.axis.y);
+  set(kAxisZ, axes.axis.z);
+  set(kCosThetaO, axes.cosTheta);
+  set(kSinThetaO, axes.sinTheta);
+  set(kCosThetaE, node.cosThetaE());
+  set(kTwoSided, node.twoSided() ? 1.0f : 0.0f);
 }
 
-const Cut::Member* Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {
-  const auto after = std::upper_bound(members_.begin(), members_.end(), leaf,
-                                      [](std::uint32_t l, const Member& m) { return l < m.firstLeaf; });
-  if (after == members_.begin()) return nullptr;
-  const Member& member = *(after - 1);
-  const LightTree& tree = member.distant ? trees.distant : trees.local;
-  return leaf - member.firstLeaf < tree.node(member.node).leafCount() ? &member : nullptr;
+FarChoice Cut::makeFarChoice(std::size_t facingIndex) const {
+  const Facing normals = facing(facingIndex);
+  std::vector<double> weights;
+  weights.reserve(far_.size());
+  for (const Far& c : far_) {
+    // The cosine at the receiver varies by the spread of the directions and by that of the normals.
+    const float cosSpread = c.cosThetaU * normals.cosSpread - c.sinThetaU * normals.sinSpread;
+    const float sinSpread = c.sinThetaU * normals.cosSpread + c.cosThetaU * normals.sinSpread;
+    const float cosTheta = glm::dot(c.direction, normals.axis);
+    weights.push_back(static_cast<double>(c.estimate) * meanClampedCosine(cosTheta, cosSpread > 0 ? sinSpread : 1.0f));
+  }
+  return FarChoice(weights);
+}
+
+const FarChoice* Cut::keep(std::size_t facingIndex, FarChoice choice) const {
+  auto mine = std::make_unique<const FarChoice>(std::move(choice));
+  const FarChoice* kept = nullptr;
+  if (!choices_[facingIndex].compare_exchange_strong(kept, mine.get(), std::memory_order_acq_rel)) return kept;
+  return mine.release();
+}
+
+std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {
+  const auto find = [&](std::size_t first, std::size_t last) -> std::optional<std::size_t> {
+    const auto begin = members_.begin() + static_cast<std::ptrdiff_t>(first),
+               end = members_.begin() + static_cast<std::ptrdiff_t>(last);
+    const auto after =
+        std::upper_bound(begin, end, leaf, [](std::uint32_t l, const Member& m) { return l < m.firstLeaf; });
+    if (after == begin) return std::nullopt;
+    const Member& member = *(after - 1);
+    const LightTree& tree = member.distant ? trees.distant : trees.local;
+    if (leaf - member.firstLeaf >= tree.node(member.node).leafCount()) return std::nullopt;
+    return static_cast<std::size_t>(after - 1 - members_.begin());
+  };
+  const auto far = find(0, far_.size());
+  return far ? far : find(far_.size(), members_.size());
 }
 
 std::size_t Cut::bytes() const {
-  return sizeof(Cut) + clusters_.far.bytes() + clusters_.near.bytes() + members_.capacity() * sizeof(Member) +
-         memberOfSlot_.capacity() * sizeof(std::uint16_t);
+  std::size_t sum = sizeof(Cut) + far_.capacity() * sizeof(Far) + near_.bytes() + members_.capacity() * sizeof(Member);
+  if (!choices_) return sum;
+  sum += kFacings * sizeof(choices_[0]);
+  for (std::size_t i = 0; i < kFacings; ++i) {
+    if (const FarChoice* choice = farChoice(i)) sum += choice->bytes();
+  }
+  return sum;
 }
 
 }  // namespace cellcut

@@ -6,12 +6,16 @@
 #pragma once
 
 #include "renderer/lights/light_tree.h"
+#include "renderer/sampling/alias_table.h"
 #include "renderer/sampling/cut_weights.h"
 #include "renderer/sampling/sampler_settings.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cellcut {
@@ -67,37 +71,74 @@ float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3&
 /// function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
 
-/// A cut in the form in which it is evaluated.
+/// The far clusters of a cut as surfaces of one facing ask them: a choice that costs the same for any number of
+/// clusters.
+class FarChoice {
+ public:
+  FarChoice() : table_({}) {}
+  explicit FarChoice(std::span<const double> weights);
+
+  double sum() const { return sum_; }  ///< of the weights
+  const AliasTable& table() const { return table_; }
+  std::size_t bytes() const { return sizeof(FarChoice) + table_.bytes(); }
+
+ private:
+  AliasTable table_;
+  double sum_ = 0;
+};
+
+/// A cut in the form in which it is evaluated. Far clusters have one estimate for all of the region, and one weight for
+/// all of its surfaces of one facing; near ones are evaluated at the point.
 class Cut {
  public:
   Cut() = default;
-  /// \param region  that the clusters were found for
+  /// \param region  that the clusters were found for; those of a region that is a point are all near
   Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters);
+  ~Cut();
+  Cut(Cut&& other) noexcept;
+  Cut& operator=(Cut&&) = delete;
 
   std::size_t size() const { return members_.size(); }
-  const ClusterArrays& clusters() const { return clusters_; }
+  std::size_t farCount() const { return far_.size(); }
+  const BlockedFloats& near() const { return near_; }
 
-  /// A cluster of the cut, in the order of its leaves.
+  /// A cluster of the cut.
   struct Member {
     NodeId node;
     bool distant;
     std::uint32_t firstLeaf;  ///< numbered through both trees
-    std::uint32_t slot;       ///< of its weight
+    float estimate;           ///< for the region
   };
+  /// Far ones first, then the near ones in the order of near(); both in the order of their leaves.
   const std::vector<Member>& members() const { return members_; }
-  /// \pre the slot is one of a cluster and not of padding
-  const Member& memberAt(std::size_t slot) const { return members_[memberOfSlot_[slot]]; }
-  /// The cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped.
-  const Member* memberOf(const LightTrees& trees, std::uint32_t leaf) const;
+  /// Index of the cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped.
+  std::optional<std::size_t> memberOf(const LightTrees& trees, std::uint32_t leaf) const;
+
+  /// The weights of the far clusters for surfaces of one facing.
+  FarChoice makeFarChoice(std::size_t facing) const;
+  /// The choice that was kept for a facing, if any.
+  const FarChoice* farChoice(std::size_t facing) const {
+    return choices_ ? choices_[facing].load(std::memory_order_acquire) : nullptr;
+  }
+  /// Keeps a choice, unless another thread was first. Returns the one that is kept. \pre farCount() > 0
+  const FarChoice* keep(std::size_t facing, FarChoice choice) const;
+
   std::size_t bytes() const;
 
  private:
-  void cacheFar(const Cluster& cluster, std::size_t i);
-  void cacheNear(const LightTreeNode& node, std::size_t i);
+  /// What the weight of a far cluster is made of.
+  struct Far {
+    float estimate;
+    Vec3 direction;
+    float cosThetaU, sinThetaU;
+  };
+  void addNear(const LightTreeNode& node, std::size_t i);
 
-  ClusterArrays clusters_;
+  std::vector<Far> far_;
+  BlockedFloats near_;
   std::vector<Member> members_;
-  std::vector<std::uint16_t> memberOfSlot_;
+  /// One per facing, made when a surface of that facing asks: a cache of a deterministic function.
+  std::unique_ptr<std::atomic<const FarChoice*>[]> choices_;
 };
 
 }  // namespace cellcut

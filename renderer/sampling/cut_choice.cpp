@@ -8,15 +8,15 @@ namespace {
 
 constexpr double kAlmostOne = 1 - 0x1p-53;
 
-/// Weights of a cut at a point; on the stack, no allocation.
-struct Weights {
-  alignas(64) std::array<float, static_cast<std::size_t>(kMaxCutSize) + 2 * kClusterBlock> weight;
-  std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock + 2> blockSum;
-  double sum;
+/// Weights of the near clusters at a point; on the stack, no allocation.
+struct NearWeights {
+  alignas(64) std::array<float, static_cast<std::size_t>(kMaxCutSize) + kClusterBlock> weight;
+  std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock + 1> blockSum;
+  double sum = 0;
 
-  Weights(const Cut& cut, const ShadingPoint& point)
-      : sum(clusterWeights(cut.clusters(), point.p, point.n, weight.data(), blockSum.data())) {
-    assert(cut.size() <= weight.size());
+  NearWeights(const Cut& cut, const ShadingPoint& point) {
+    assert(cut.near().size() <= static_cast<std::size_t>(kMaxCutSize));
+    if (cut.near().size() > 0) sum = nearWeights(cut.near(), point.p, point.n, weight.data(), blockSum.data());
   }
 };
 
@@ -36,7 +36,8 @@ std::size_t choose(std::span<const float> weights, double& target) {
 }
 
 /// Two steps: a block by the sums that SIMD gave, then a cluster by their exact sum, so that rounding loses none.
-std::size_t chooseCluster(const Weights& w, std::size_t blocks, double& u) {
+/// \param u  in [0, 1); becomes the uniform number that is left
+std::size_t chooseNear(const NearWeights& w, std::size_t blocks, double& u) {
   u *= w.sum;
   const std::size_t block = choose({w.blockSum.data(), blocks}, u);
   const std::span<const float> inBlock(w.weight.data() + block * kClusterBlock, kClusterBlock);
@@ -87,16 +88,26 @@ double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Shad
   return pmf;
 }
 
-std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster,
-                                      const ShadingPoint& point, double u) {
-  if (cut.size() == 0) return std::nullopt;
-  const Weights w(cut, point);
-  if (!(w.sum > 0)) return std::nullopt;
-  const std::size_t slot = chooseCluster(w, cut.clusters().blocks(), u);
-  const double pmf = static_cast<double>(w.weight[slot]) / w.sum;
-  const Cut::Member& member = cut.memberAt(slot);
-  const NodeId node = member.node;
-  const bool distant = member.distant;
+std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, const FarChoice& far,
+                                      InCluster inCluster, const ShadingPoint& point, double u) {
+  const NearWeights near(cut, point);
+  const double sum = far.sum() + near.sum;
+  if (!(sum > 0)) return std::nullopt;
+  const double toFar = far.sum() / sum;
+  std::size_t chosen;
+  double pmf;
+  if (u < toFar) {
+    const AliasTable::Sample sample = far.table().sample(std::min(u / toFar, kAlmostOne));
+    chosen = sample.index;
+    u = sample.rest;
+    pmf = static_cast<double>(far.table().pmf(chosen)) * toFar;
+  } else {
+    u = std::min((u - toFar) / (near.sum / sum), kAlmostOne);
+    const std::size_t i = chooseNear(near, cut.near().blocks(), u);
+    chosen = cut.farCount() + i;
+    pmf = static_cast<double>(near.weight[i]) / sum;
+  }
+  const auto [node, distant, firstLeaf, estimate] = cut.members()[chosen];
   const LightTree& tree = treeOf(trees, distant);
   if (inCluster == InCluster::kDescent) {
     const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, point, u);
@@ -108,18 +119,21 @@ std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, I
   return SampledLight{tree.light(leaf), static_cast<float>(pmf * tree.pmfByIntensity(node, leaf))};
 }
 
-float pmfInCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point, LightId light) {
+float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,
+               const ShadingPoint& point, LightId light) {
   const bool distant = static_cast<std::uint32_t>(light) >= static_cast<std::uint32_t>(trees.firstDistant);
   const LightTree& tree = treeOf(trees, distant);
   const std::uint32_t leaf = tree.leafOf(light);
   if (leaf == LightTree::kNoLeaf) return 0;
   const auto offset = distant ? static_cast<std::uint32_t>(trees.local.leafCount()) : 0u;
-  const Cut::Member* member = cut.memberOf(trees, leaf + offset);
+  const std::optional<std::size_t> member = cut.memberOf(trees, leaf + offset);
   if (!member) return 0;
-  const Weights w(cut, point);
-  if (!(w.sum > 0)) return 0;
-  const double pmf = static_cast<double>(w.weight[member->slot]) / w.sum;
-  const NodeId node = member->node;
+  const NearWeights near(cut, point);
+  const double sum = far.sum() + near.sum;
+  if (!(sum > 0)) return 0;
+  const double pmf = *member < cut.farCount() ? static_cast<double>(far.table().pmf(*member)) * (far.sum() / sum)
+                                              : static_cast<double>(near.weight[*member - cut.farCount()]) / sum;
+  const NodeId node = cut.members()[*member].node;
   const double inside = inCluster == InCluster::kDescent ? pmfByDescent(tree, distant, node, point, leaf)
                                                          : tree.pmfByIntensity(node, leaf);
   return static_cast<float>(pmf * inside);

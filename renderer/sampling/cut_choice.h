@@ -16,10 +16,12 @@ std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, 
                                            double u);
 double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf);
 
-/// A light of a cut. Nothing when no light of it can reach the point.
+/// A light of a cut. Nothing when no light of it can reach the point, or when a descent ends where none can.
+/// \param far  the cut's choice for facingOf(point.n)
 /// \pre cut.size() ≤ kMaxCutSize
-std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, InCluster inCluster,
-                                      const ShadingPoint& point, double u);
-float pmfInCut(const LightTrees& trees, const Cut& cut, InCluster inCluster, const ShadingPoint& point, LightId light);
+std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, const FarChoice& far,
+                                      InCluster inCluster, const ShadingPoint& point, double u);
+float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,
+               const ShadingPoint& point, LightId light);
 
 }  // namespace cellcut

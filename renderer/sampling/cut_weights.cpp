@@ -32,39 +32,29 @@ Floats receiverCosines(Floats cosTheta, Floats cosU, Floats sinU) {
   return hn::IfThenElse(hn::Ge(cosTheta, cosU), hn::Set(kTag, 1.0f), hn::Max(hn::Zero(kTag), bound));
 }
 
-Floats farWeights(const BlockedFloats& far, std::size_t i, const Floats3& n) {
-  const auto load = [&](std::size_t field) { return hn::Load(kTag, far.field(field) + i); };
-  const Floats3 direction{load(ClusterArrays::kDirectionX), load(ClusterArrays::kDirectionY),
-                          load(ClusterArrays::kDirectionZ)};
-  const auto cosine =
-      receiverCosines(dot(n, direction), load(ClusterArrays::kCosThetaU), load(ClusterArrays::kSinThetaU));
-  return hn::Mul(cosine, load(ClusterArrays::kEstimate));
-}
-
 /// localCluster() of cut.cpp for a region of radius 0, times receiverCosine.
-Floats nearWeights(const BlockedFloats& near, std::size_t i, const Floats3& p, const Floats3& n) {
+Floats weigh(const BlockedFloats& near, std::size_t i, const Floats3& p, const Floats3& n) {
   const auto load = [&](std::size_t field) { return hn::Load(kTag, near.field(field) + i); };
   const auto one = hn::Set(kTag, 1.0f), zero = hn::Zero(kTag), margin = hn::Set(kTag, kCosineMargin);
-  const Floats3 to{hn::Sub(load(ClusterArrays::kCentreX), p.x), hn::Sub(load(ClusterArrays::kCentreY), p.y),
-                   hn::Sub(load(ClusterArrays::kCentreZ), p.z)};
+  const Floats3 to{hn::Sub(load(kCentreX), p.x), hn::Sub(load(kCentreY), p.y), hn::Sub(load(kCentreZ), p.z)};
   const auto distance = hn::Sqrt(dot(to, to));
-  const auto radius = load(ClusterArrays::kRadius);
+  const auto radius = load(kRadius);
   const auto inside = hn::Ge(radius, distance);
   const auto perDistance = hn::Div(one, hn::IfThenElse(inside, one, distance));
   const Floats3 direction{hn::Mul(to.x, perDistance), hn::Mul(to.y, perDistance), hn::Mul(to.z, perDistance)};
   const auto sinU = hn::Mul(radius, perDistance);
   const auto cosU = sineOf(sinU);
 
-  const Floats3 axis{load(ClusterArrays::kAxisX), load(ClusterArrays::kAxisY), load(ClusterArrays::kAxisZ)};
+  const Floats3 axis{load(kAxisX), load(kAxisY), load(kAxisZ)};
   const auto towards = hn::Neg(dot(axis, direction));
-  const auto cosTheta = hn::IfThenElse(hn::Gt(load(ClusterArrays::kTwoSided), zero), hn::Abs(towards), towards);
+  const auto cosTheta = hn::IfThenElse(hn::Gt(load(kTwoSided), zero), hn::Abs(towards), towards);
   const auto sinTheta = sineOf(cosTheta);
-  const auto cosO = load(ClusterArrays::kCosThetaO), sinO = load(ClusterArrays::kSinThetaO);
+  const auto cosO = load(kCosThetaO), sinO = load(kSinThetaO);
   const auto withinAxes = hn::Ge(cosTheta, cosO);
   const auto cosPast = hn::IfThenElse(withinAxes, one, hn::MulAdd(cosTheta, cosO, hn::Mul(sinTheta, sinO)));
   const auto sinPast = hn::IfThenElse(withinAxes, zero, hn::NegMulAdd(cosTheta, sinO, hn::Mul(sinTheta, cosO)));
   const auto cosEmit = hn::IfThenElse(hn::Ge(cosPast, cosU), one, hn::MulAdd(cosPast, cosU, hn::Mul(sinPast, sinU)));
-  const auto reaches = hn::Ge(cosEmit, hn::Sub(load(ClusterArrays::kCosThetaE), margin));
+  const auto reaches = hn::Ge(cosEmit, hn::Sub(load(kCosThetaE), margin));
   const auto emission = hn::IfThenElseZero(reaches, hn::Max(cosEmit, margin));
 
   const auto receiver = receiverCosines(dot(n, direction), cosU, sinU);
@@ -73,32 +63,25 @@ Floats nearWeights(const BlockedFloats& near, std::size_t i, const Floats3& p, c
                                          hn::Set(kTag, std::numeric_limits<float>::min())));
   const auto mean = hn::MulAdd(hn::Mul(radius, q), q, distance);
   const auto scale = hn::IfThenElse(hn::Gt(mean, zero), mean, one);
-  return hn::Div(hn::Div(hn::Mul(load(ClusterArrays::kIntensity), factor), scale), scale);
+  return hn::Div(hn::Div(hn::Mul(load(kIntensity), factor), scale), scale);
 }
 
-double clusterWeightsSimd(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* HWY_RESTRICT weights,
-                          float* HWY_RESTRICT blockSums) {
+double nearWeightsSimd(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* HWY_RESTRICT weights,
+                       float* HWY_RESTRICT blockSums) {
   const std::size_t lanes = hn::Lanes(kTag);
   const Floats3 point{hn::Set(kTag, p.x), hn::Set(kTag, p.y), hn::Set(kTag, p.z)};
   const Floats3 normal{hn::Set(kTag, n.x), hn::Set(kTag, n.y), hn::Set(kTag, n.z)};
   double sum = 0;
-  const auto addBlocks = [&](std::size_t blocks, const auto& weigh) {
-    for (std::size_t block = 0; block < blocks; ++block) {
-      auto blockSum = hn::Zero(kTag);
-      for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; i += lanes) {
-        const auto weight = weigh(i);
-        hn::Store(weight, kTag, weights + i);
-        blockSum = hn::Add(blockSum, weight);
-      }
-      blockSums[block] = hn::GetLane(hn::SumOfLanes(kTag, blockSum));
-      sum += static_cast<double>(blockSums[block]);
+  for (std::size_t block = 0; block < near.blocks(); ++block) {
+    auto blockSum = hn::Zero(kTag);
+    for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; i += lanes) {
+      const auto weight = weigh(near, i, point, normal);
+      hn::Store(weight, kTag, weights + i);
+      blockSum = hn::Add(blockSum, weight);
     }
-    weights += blocks * kClusterBlock;
-    blockSums += blocks;
-  };
-  addBlocks(clusters.far.blocks(), [&](std::size_t i) HWY_ATTR { return farWeights(clusters.far, i, normal); });
-  addBlocks(clusters.near.blocks(),
-            [&](std::size_t i) HWY_ATTR { return nearWeights(clusters.near, i, point, normal); });
+    blockSums[block] = hn::GetLane(hn::SumOfLanes(kTag, blockSum));
+    sum += static_cast<double>(blockSums[block]);
+  }
   return sum;
 }
 
@@ -110,10 +93,10 @@ HWY_AFTER_NAMESPACE();
 
 namespace cellcut {
 
-HWY_EXPORT(clusterWeightsSimd);
+HWY_EXPORT(nearWeightsSimd);
 
-double clusterWeights(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights, float* blockSums) {
-  return HWY_DYNAMIC_DISPATCH(clusterWeightsSimd)(clusters, p, n, weights, blockSums);
+double nearWeights(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* weights, float* blockSums) {
+  return HWY_DYNAMIC_DISPATCH(nearWeightsSimd)(near, p, n, weights, blockSums);
 }
 
 BlockedFloats::BlockedFloats(std::size_t count, std::size_t fields) : size_(count), fields_(fields) {

@@ -33,32 +33,21 @@ class BlockedFloats {
   std::unique_ptr<float[], Free> values_;
 };
 
-/// What a cut caches of its clusters. Those that are far from the cell, in its measure, have one estimate for all of
-/// it; the others are evaluated at the point.
-struct ClusterArrays {
-  enum FarField { kEstimate, kDirectionX, kDirectionY, kDirectionZ, kCosThetaU, kSinThetaU, kFarFields };
-  enum NearField {
-    kCentreX,
-    kCentreY,
-    kCentreZ,
-    kRadius,
-    kIntensity,
-    kAxisX,
-    kAxisY,
-    kAxisZ,
-    kCosThetaO,
-    kSinThetaO,
-    kCosThetaE,
-    kTwoSided,
-    kNearFields
-  };
-
-  BlockedFloats far;
-  BlockedFloats near;
-
-  std::size_t blocks() const { return far.blocks() + near.blocks(); }
-  /// Where the weight of a cluster stands: far ones first, near ones from the next whole block on.
-  std::size_t nearSlot(std::size_t i) const { return far.blocks() * kClusterBlock + i; }
+/// The clusters of a cut that are evaluated at the point, one row per field.
+enum NearField {
+  kCentreX,
+  kCentreY,
+  kCentreZ,
+  kRadius,
+  kIntensity,
+  kAxisX,
+  kAxisY,
+  kAxisZ,
+  kCosThetaO,
+  kSinThetaO,
+  kCosThetaE,
+  kTwoSided,
+  kNearFields
 };
 
 /// Rounding of a cosine bound in float. Without it 1.5 % of adversarial grazing cases lose a light.
@@ -79,16 +68,14 @@ inline float meanDistance(float distance, float rho) {
   return distance + rho * q * q;
 }
 
-/// Weight of each cluster at a point p with unit normal n: estimate × receiverCosine, the estimate cached or found as
-/// for a region of radius 0.
-/// \param weights     out: blocks() · kClusterBlock values, ≥ 0; aligned to 64 bytes
-/// \param blockSums   out:
-/// blocks() values
-/// \return            Σ of blockSums, first to last
-double clusterWeights(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
+/// Weight of each cluster at a point p with unit normal n: its estimate for that point × receiverCosine.
+/// \param near     rows of NearField
+/// \param weights  out: blocks() · kClusterBlock values, ≥ 0; aligned to 64 bytes
+/// \param blockSums  out: blocks() values
+/// \return Σ of blockSums, first to last
+double nearWeights(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
 
 /// The same without SIMD: the definition, for tests.
-double clusterWeightsScalar(const ClusterArrays& clusters, const Vec3& p, const Vec3& n, float* weights,
-                            float* blockSums);
+double nearWeightsScalar(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
 
 }  // namespace cellcut

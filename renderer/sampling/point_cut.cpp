@@ -11,10 +11,10 @@ class PointCutSampler final : public LightSampler {
   PointCutSampler(const Lights& lights, const SamplerSettings& settings) : trees_(lights), settings_(settings) {}
 
   std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override {
-    return sampleCut(trees_, cutAt(point.p), settings_.inCluster, point, u);
+    return sampleCut(trees_, cutAt(point.p), {}, settings_.inCluster, point, u);
   }
   float pmf(const ShadingPoint& point, LightId light) const override {
-    return pmfInCut(trees_, cutAt(point.p), settings_.inCluster, point, light);
+    return pmfInCut(trees_, cutAt(point.p), {}, settings_.inCluster, point, light);
   }
   std::size_t bytes() const override { return trees_.bytes(); }
   SamplerStatistics statistics() const override { return {.tree = trees_.statistics()}; }
