@@ -120,7 +120,7 @@ void addCuts(CLI::App& verb, SamplerSettings& s) {
   const auto threshold = [&s](const std::string& t) {
     s.threshold = static_cast<float>(parseReal("--threshold", t, {.least = 0, .most = 1}));
   };
-  addText(verb, "--threshold", "X", threshold, "Split clusters above this share of a cut's estimate (default 0.001)");
+  addText(verb, "--threshold", "X", threshold, "Split clusters above this share of a cut's estimate (default 0.002)");
   const auto maxCut = [&s](const std::string& t) {
     s.maxCut = static_cast<int>(parseWhole("--max-cut", t, {.least = 2, .most = kMaxCutSize}));
   };
@@ -132,7 +132,7 @@ void addCuts(CLI::App& verb, SamplerSettings& s) {
           "Cells along the longest axis of what is seen (default " + std::to_string(s.gridResolution) + ")");
   addText(
       verb, "--in-cluster", "intensity|descent", [&s](const std::string& t) { s.inCluster = parseInCluster(t); },
-      "How a light is chosen inside a cluster (default intensity)");
+      "How a light is chosen inside a cluster (default descent)");
   const auto memory = [&s](const std::string& t) {
     s.cellMemory = static_cast<std::size_t>(parseWhole("--cell-memory", t, {.most = kMaxCellMegabytes})) << 20;
   };

@@ -49,14 +49,15 @@ template <class Use>
 auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
   const std::optional<CellCoordinates> cell = grid_.cellOf(point.p);
   // Past the range of cells every point is a cell of its own.
-  if (!cell) return use(makeCut({point.p, 0}), FarChoice());
+  const std::size_t facing = facingOf(point.n);
+  const auto useOwn = [&](const Region& region) {
+    const Cut own = makeCut(region);
+    return use(own, makeFarChoice(own, facing));
+  };
+  if (!cell) return useOwn({point.p, 0});
   const Cut* cut = cells_.find(*cell);
   if (!cut) cut = cells_.findOrMake(*cell, [&] { return makeCut(grid_.region(*cell)); });
-  const std::size_t facing = facingOf(point.n);
-  if (!cut) {
-    const Cut own = makeCut(grid_.region(*cell));
-    return use(own, makeFarChoice(own, facing));
-  }
+  if (!cut) return useOwn(grid_.region(*cell));
   if (cut->farCount() == 0) return use(*cut, FarChoice());
   if (const FarChoice* far = cut->farChoice(facing)) return use(*cut, *far);
   FarChoice made = makeFarChoice(*cut, facing);

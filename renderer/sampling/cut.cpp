@@ -190,7 +190,7 @@ FarChoice::FarChoice(std::span<const double> weights)
 
 Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters) {
   const auto isNear = [&](const Cluster& c) {
-    return region.radius == 0 || (!c.distant && region.radius > kNearShare * c.meanDistance);
+    return !c.distant && (region.radius == 0 || region.radius > kNearShare * c.meanDistance);
   };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
   const auto nodeOf = [&](const Cluster& c) -> const LightTreeNode& {

@@ -92,7 +92,7 @@ class FarChoice {
 class Cut {
  public:
   Cut() = default;
-  /// \param region  that the clusters were found for; those of a region that is a point are all near
+  /// \param region  that the clusters were found for; the local ones of a region that is a point are all near
   Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters);
   ~Cut();
   Cut(Cut&& other) noexcept;

@@ -9,8 +9,7 @@
 
 namespace cellcut {
 
-/// Squares of the octahedral map, per side. 16: normals of one facing are within 8° of its middle, on average. Half as
-/// many cost noise (`rooms` 4 %), twice as many cost tables that are hardly used.
+/// Squares of the octahedral map, per side. With 16 no normal is more than 15° from the middle of its facing.
 inline constexpr std::size_t kFacingsPerSide = 16;
 inline constexpr std::size_t kFacings = kFacingsPerSide * kFacingsPerSide;
 

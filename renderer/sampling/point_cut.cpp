@@ -1,4 +1,5 @@
 #include "renderer/sampling/cut_choice.h"
+#include "renderer/sampling/facing.h"
 #include "renderer/sampling/strategies.h"
 
 namespace cellcut {
@@ -11,10 +12,12 @@ class PointCutSampler final : public LightSampler {
   PointCutSampler(const Lights& lights, const SamplerSettings& settings) : trees_(lights), settings_(settings) {}
 
   std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override {
-    return sampleCut(trees_, cutAt(point.p), {}, settings_.inCluster, point, u);
+    const Cut cut = cutAt(point.p);
+    return sampleCut(trees_, cut, cut.makeFarChoice(facingOf(point.n)), settings_.inCluster, point, u);
   }
   float pmf(const ShadingPoint& point, LightId light) const override {
-    return pmfInCut(trees_, cutAt(point.p), {}, settings_.inCluster, point, light);
+    const Cut cut = cutAt(point.p);
+    return pmfInCut(trees_, cut, cut.makeFarChoice(facingOf(point.n)), settings_.inCluster, point, light);
   }
   std::size_t bytes() const override { return trees_.bytes(); }
   SamplerStatistics statistics() const override { return {.tree = trees_.statistics()}; }

@@ -18,8 +18,8 @@ enum class InCluster : std::uint8_t {
 
 /// Of the strategies with cuts; the others ignore them.
 struct SamplerSettings {
-  float threshold = 0.001f;  ///< a cluster above this share of the cut's estimate is split; [0, 1]
-  int maxCut = 256;          ///< most clusters of a cut; 2 … kMaxCutSize
+  float threshold = 0.002f;  ///< a cluster above this share of the cut's estimate is split; [0, 1]
+  int maxCut = 1024;         ///< most clusters of a cut; 2 … kMaxCutSize
   int gridResolution = 16;   ///< cells along the longest axis of what is seen; 1 … 1024
   InCluster inCluster = InCluster::kDescent;
   std::size_t cellMemory = std::size_t{256} << 20;  ///< bytes of kept cuts; beyond, cuts are found again at every use

@@ -1,6 +1,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/sampling/cell_grid.h"
 #include "renderer/sampling/cut_choice.h"
+#include "renderer/sampling/facing.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -100,29 +101,36 @@ TEST(Cut, HoldsEachLightOnce) {
   findCut(many.trees, region, {0, 64}, clusters);
   EXPECT_EQ(clusters.size(), 64u);
   const Cut cut(many.trees, region, clusters);
-  for (const Cut::Member& m : cut.members()) {
+  EXPECT_GT(cut.farCount(), 0u);
+  EXPECT_EQ(cut.farCount() + cut.near().size(), cut.size());
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    const Cut::Member& m = cut.members()[i];
     const LightTree& tree = m.distant ? many.trees.distant : many.trees.local;
-    for (std::uint32_t i = 0; i < tree.node(m.node).leafCount(); ++i) {
-      EXPECT_EQ(cut.memberOf(many.trees, m.firstLeaf + i), &m);
+    for (std::uint32_t leaf = 0; leaf < tree.node(m.node).leafCount(); ++leaf) {
+      EXPECT_EQ(cut.memberOf(many.trees, m.firstLeaf + leaf), i);
     }
-    EXPECT_EQ(&cut.memberAt(m.slot), &m);
   }
+}
+
+/// The cut of a point: all of its local clusters are near.
+Cut cutOfPoint(const ManyLights& many, const Vec3& p, int maxSize) {
+  std::vector<Cluster> clusters;
+  findCut(many.trees, {p, 0}, {0.001f, maxSize}, clusters);
+  return Cut(many.trees, {p, 0}, clusters);
 }
 
 TEST(Cut, SimdWeightsAreTheScalarOnes) {
   const ManyLights many;
   Rng rng(1);
   for (int i = 0; i < 200; ++i) {
-    const Region region{Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), rng.uniform(0, 0.3f)};
-    std::vector<Cluster> clusters;
-    findCut(many.trees, region, {0.001f, 200}, clusters);
-    const Cut cut(many.trees, region, clusters);
-    const Vec3 p = region.centre + region.radius * rng.uniform() * randomUnit(rng), n = randomUnit(rng);
+    const Vec3 centre(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+    const Cut cut = cutOfPoint(many, centre, 200);
+    const Vec3 p = centre + 0.3f * rng.uniform() * randomUnit(rng), n = randomUnit(rng);
     alignas(64) std::array<float, 512> simd, scalar;
     std::array<float, 32> simdSums, scalarSums;
-    const double sum = clusterWeights(cut.clusters(), p, n, simd.data(), simdSums.data());
-    EXPECT_NEAR(sum, clusterWeightsScalar(cut.clusters(), p, n, scalar.data(), scalarSums.data()), 1e-5 * sum);
-    for (std::size_t slot = 0; slot < cut.clusters().blocks() * kClusterBlock; ++slot) {
+    const double sum = nearWeights(cut.near(), p, n, simd.data(), simdSums.data());
+    EXPECT_NEAR(sum, nearWeightsScalar(cut.near(), p, n, scalar.data(), scalarSums.data()), 1e-5 * sum);
+    for (std::size_t slot = 0; slot < cut.near().blocks() * kClusterBlock; ++slot) {
       // Fused and separate roundings of cosines differ by 2⁻²²; beside the margin of 10⁻⁵ at a horizon that is a few
       // per cent.
       const float smallest = std::min(simd[slot], scalar[slot]), largest = std::max(simd[slot], scalar[slot]);
@@ -133,40 +141,83 @@ TEST(Cut, SimdWeightsAreTheScalarOnes) {
 
 TEST(Cut, WeightOfAPointsOwnRegionIsTheImportance) {
   const ManyLights many;
-  const Region far{Vec3(0), 1};
-  std::vector<Cluster> clusters;
-  findCut(many.trees, far, {0, 128}, clusters);
-  const Cut cut(many.trees, far, clusters);
-  ASSERT_GT(cut.clusters().near.size(), 0u);
   const ShadingPoint point{Vec3(0.3f, 0.2f, -0.1f), glm::normalize(Vec3(1, 2, 3))};
+  const Cut cut = cutOfPoint(many, point.p, 128);
+  ASSERT_GT(cut.near().size(), 0u);
   alignas(64) std::array<float, 512> weights;
   std::array<float, 32> sums;
-  const double sum = clusterWeights(cut.clusters(), point.p, point.n, weights.data(), sums.data());
-  for (const Cut::Member& m : cut.members()) {
-    if (m.slot < cut.clusters().nearSlot(0)) continue;
-    EXPECT_NEAR(weights[m.slot], nodeImportance(many.trees.local, false, m.node, point.p, point.n), 1e-5 * sum);
+  const double sum = nearWeights(cut.near(), point.p, point.n, weights.data(), sums.data());
+  for (std::size_t i = 0; i < cut.near().size(); ++i) {
+    const Cut::Member& m = cut.members()[cut.farCount() + i];
+    ASSERT_FALSE(m.distant);
+    EXPECT_NEAR(weights[i], nodeImportance(many.trees.local, false, m.node, point.p, point.n), 1e-5 * sum);
   }
+}
+
+TEST(Facing, HoldsItsNormals) {
+  Rng rng(4);
+  std::set<std::size_t> seen;
+  for (int i = 0; i < 200'000; ++i) {
+    // Also normals on the borders of the map: axes, and directions with a coordinate that is all but 0.
+    Vec3 n = randomUnit(rng);
+    if (i % 4 == 0) n[i / 4 % 3] *= 1e-7f;
+    if (i % 8 == 0) n[(i / 8 + 1) % 3] = 0;
+    n = glm::normalize(n);
+    const std::size_t index = facingOf(n);
+    seen.insert(index);
+    const Facing f = facing(index);
+    const double chord = glm::length(glm::dvec3(n) - glm::dvec3(f.axis));
+    ASSERT_LE(2 * std::asin(0.5 * chord), std::acos(static_cast<double>(f.cosSpread)) + 1e-6) << i;
+    ASSERT_LT(std::acos(f.cosSpread), kPi / 12);  // facing.h promises 15°
+  }
+  EXPECT_EQ(seen.size(), kFacings);
+}
+
+TEST(Cut, FarWeightIsZeroOnlyWhereNoLightIsAboveTheHorizon) {
+  const ManyLights many;
+  Rng rng(5);
+  const Region region{Vec3(0.2f), 0.1f};
+  std::vector<Cluster> clusters;
+  findCut(many.trees, region, {0, 64}, clusters);
+  const Cut cut(many.trees, region, clusters);
+  std::size_t zeros = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 n = randomUnit(rng);
+    const FarChoice far = cut.makeFarChoice(facingOf(n));
+    const Vec3 p = region.centre + region.radius * randomUnit(rng);
+    for (std::size_t k = 0; k < cut.farCount(); ++k) {
+      if (far.table().pmf(k) > 0) continue;
+      ++zeros;
+      const Cut::Member& m = cut.members()[k];
+      EXPECT_EQ(nodeImportance(m.distant ? many.trees.distant : many.trees.local, m.distant, m.node, p, n), 0);
+    }
+  }
+  EXPECT_GT(zeros, 1000u);
 }
 
 // The proofs of all strategies have fewer lights than a cut has clusters, but for one: here clusters hold about a hundred.
 TEST(Cut, ChoosesInsideClustersWithTheProbabilityThatItReports) {
   const ManyLights many;
-  const Region region{Vec3(0.1f), 0.3f};
+  const Region region{Vec3(0.5f), 0.5f};
   std::vector<Cluster> clusters;
-  findCut(many.trees, region, {0, 8}, clusters);
+  findCut(many.trees, region, {0, 12}, clusters);
   const Cut cut(many.trees, region, clusters);
+  ASSERT_GT(cut.farCount(), 1u);
+  ASSERT_GT(cut.near().size(), 1u);
   const ShadingPoint point{Vec3(0.2f, 0.1f, 0), glm::normalize(Vec3(1, 2, -1))};
+  const FarChoice far = cut.makeFarChoice(facingOf(point.n));
   for (const InCluster inCluster : {InCluster::kIntensity, InCluster::kDescent}) {
     std::vector<double> outcomes;
     for (std::size_t i = 0; i < many.lights.size(); ++i) {
-      outcomes.push_back(static_cast<double>(pmfInCut(many.trees, cut, inCluster, point, static_cast<LightId>(i))));
+      outcomes.push_back(
+          static_cast<double>(pmfInCut(many.trees, cut, far, inCluster, point, static_cast<LightId>(i))));
     }
     // The last outcome is none: a descent can end there.
     outcomes.push_back(std::max(0.0, 1 - std::accumulate(outcomes.begin(), outcomes.end(), 0.0)));
     std::vector<std::uint64_t> counts(outcomes.size());
     Rng rng(9);
     for (int i = 0; i < 300'000; ++i) {
-      const auto sample = sampleCut(many.trees, cut, inCluster, point, rng.uniformDouble());
+      const auto sample = sampleCut(many.trees, cut, far, inCluster, point, rng.uniformDouble());
       ++counts[sample ? static_cast<std::size_t>(sample->light) : many.lights.size()];
       if (!sample) continue;
       // Roundings of a product and a quotient in another order.
