@@ -3,7 +3,8 @@
 #include "tests/support/depth.h"
 #include "tests/support/strategies.h"
 
-#include <cstring>
+#include <array>
+#include <bit>
 
 #include <oneapi/tbb/global_control.h>
 
@@ -55,7 +56,9 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
       const auto [picture, rays] = render(threads);
       std::size_t different = 0;
       for (std::size_t i = 0; i < picture.size(); ++i) {
-        if (std::memcmp(&picture[i], &expected[i], sizeof(Vec3)) != 0) ++different;
+        if (std::bit_cast<std::array<std::uint32_t, 3>>(picture[i]) !=
+            std::bit_cast<std::array<std::uint32_t, 3>>(expected[i]))
+          ++different;
       }
       EXPECT_EQ(different, 0u) << "pixels, on " << threads << " threads, run " << run;
       EXPECT_EQ(rays.bounce, expectedRays.bounce);
@@ -64,8 +67,7 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Determinism, testing::ValuesIn(kSamplerVariants),
-                         variantName);
+INSTANTIATE_TEST_SUITE_P(Every, Determinism, testing::ValuesIn(kSamplerVariants), variantName);
 
 }  // namespace
 }  // namespace cellcut::test

@@ -24,7 +24,7 @@ struct GlbTriangle {
   Vec3 normal() const { return glm::cross(corners[1] - corners[0], corners[2] - corners[0]); }
 };
 
-struct Glb {
+struct Glb {  // NOLINT(bugprone-exception-escape): the JSON library checks itself in its move constructor
   nlohmann::json json;
   std::vector<std::byte> binary;
 

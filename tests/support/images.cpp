@@ -54,7 +54,8 @@ std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide) {
   std::vector<Estimate> tiles(static_cast<std::size_t>(tilesPerSide) * static_cast<std::size_t>(tilesPerSide));
   for (int y = 0; y < height * tilesPerSide; ++y) {
     for (int x = 0; x < width * tilesPerSide; ++x) {
-      Estimate& tile = tiles[static_cast<std::size_t>((y / height) * tilesPerSide + x / width)];
+      const auto row = static_cast<std::size_t>(y / height), column = static_cast<std::size_t>(x / width);
+      Estimate& tile = tiles[row * static_cast<std::size_t>(tilesPerSide) + column];
       tile.mean += image.at(x, y).mean / pixels;
       tile.variance += image.at(x, y).variance / (pixels * pixels);
     }

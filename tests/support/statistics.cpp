@@ -12,7 +12,7 @@ namespace {
 /// Lower regularised gamma function by its series; converges for x < a + 1.
 double gammaSeries(double a, double x) {
   double term = 1 / a, sum = term;
-  for (double n = a + 1; term > sum * 1e-16; ++n) sum += term *= x / n;
+  for (int n = 1; term > sum * 1e-16; ++n) sum += term *= x / (a + n);
   return sum * std::exp(-x + a * std::log(x) - std::lgamma(a));
 }
 
@@ -20,7 +20,8 @@ double gammaSeries(double a, double x) {
 double gammaFraction(double a, double x) {
   constexpr double tiny = 1e-300;
   double b = x + 1 - a, c = 1 / tiny, d = 1 / b, h = d;
-  for (double i = 1; i < 100000; ++i) {
+  for (int k = 1; k < 100000; ++k) {
+    const double i = k;
     const double an = -i * (i - a);
     b += 2;
     d = 1 / (std::abs(an * d + b) < tiny ? tiny : an * d + b);

@@ -5,6 +5,7 @@
 #include "renderer/base/tone_map.h"
 #include "tests/support/temporary_directory.h"
 
+#include <algorithm>
 #include <bit>
 #include <string_view>
 
@@ -139,8 +140,8 @@ std::vector<std::byte> greyJpeg() {
     bytes.insert(bytes.end(), huffman.begin(), huffman.end());
   }
   bytes.insert(bytes.end(), scan.begin(), scan.end());
-  std::vector<std::byte> file;
-  for (const int byte : bytes) file.push_back(static_cast<std::byte>(byte));
+  std::vector<std::byte> file(bytes.size());
+  std::transform(bytes.begin(), bytes.end(), file.begin(), [](int byte) { return static_cast<std::byte>(byte); });
   return file;
 }
 

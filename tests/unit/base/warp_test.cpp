@@ -101,7 +101,9 @@ TEST_P(SphericalTriangles, AreSampledUniformly) {
   // and by distance from that corner: the first is uniform in area by definition of the bins.
   constexpr int kBins = 12;
   std::vector<double> expected;
+  expected.reserve(kBins);
   std::vector<Vec3> cuts;
+  cuts.reserve(kBins + 1);
   for (int i = 0; i <= kBins; ++i) {
     const float t = static_cast<float>(i) / kBins;
     cuts.push_back(glm::normalize((1 - t) * c[1] + t * c[2]));

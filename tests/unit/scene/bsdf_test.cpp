@@ -153,7 +153,7 @@ TEST(Bsdf, SamplesAreDistributedByThePdf) {
           const Vec3 wi = direction((static_cast<float>(y) + 0.5f) / (kRows * kCells),
                                     2 * kPi * (static_cast<float>(x) + 0.5f) / (kColumns * kCells));
           const double cell = 2 * std::numbers::pi / (kRows * kCells) / (kColumns * kCells);
-          expected[static_cast<std::size_t>((y / kCells) * kColumns + x / kCells)] +=
+          expected[static_cast<std::size_t>(y / kCells) * kColumns + static_cast<std::size_t>(x / kCells)] +=
               static_cast<double>(bsdf.eval(wo, wi).pdf) * cell;
         }
       }
@@ -175,7 +175,7 @@ TEST(Bsdf, SamplesAreDistributedByThePdf) {
         if (turn < 0) ++turn;
         const int row = std::min(static_cast<int>(sample->wi.z * kRows), kRows - 1);
         const int column = std::min(static_cast<int>(turn * kColumns), kColumns - 1);
-        ++counts[static_cast<std::size_t>(row * kColumns + column)];
+        ++counts[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)];
       }
       // What falls below the horizon is known to the quadrature's 10⁻³ only: it is not tested when it is less than 1 %.
       if (expected.back() < 0.01) {
