@@ -38,6 +38,15 @@ InCluster parseInCluster(const std::string& name) {
   throw InputError("--in-cluster", "'" + name + "' is none of intensity, descent");
 }
 
+const Quality& parseQuality(const std::string& name) {
+  std::string known;
+  for (const Quality& q : kQualities) {
+    if (q.name == name) return q;
+    known += (known.empty() ? "" : ", ") + std::string(q.name);
+  }
+  throw InputError("--quality", "'" + name + "' is none of " + known);
+}
+
 double parsePunctualScale(const std::string& text) {
   // Lumen per watt at 555 nm: what Blender's exporter multiplies its lights by (glTF wants candela).
   if (text == "blender") return 1.0 / 683.0;
@@ -117,6 +126,11 @@ void addSampling(CLI::App& verb, RenderSettings& s) {
 }
 
 void addCuts(CLI::App& verb, SamplerSettings& s) {
+  // Options are applied in the order in which they are declared here, whatever their order on the command line: an
+  // explicit one wins over the preset.
+  addText(
+      verb, "--quality", "NAME", [&s](const std::string& t) { s = parseQuality(t).settings; },
+      "Preset of the next four options; see below (default balanced)");
   const auto threshold = [&s](const std::string& t) {
     s.threshold = static_cast<float>(parseReal("--threshold", t, {.least = 0, .most = 1}));
   };

@@ -41,6 +41,10 @@ std::string helpText() {
   for (const StrategyName& strategy : kStrategies) {
     text += "  " + std::string(strategy.name) + ": " + std::string(strategy.description) + "\n";
   }
+  text += "\nQualities:\n";
+  for (const Quality& quality : kQualities) {
+    text += "  " + std::string(quality.name) + ": " + std::string(quality.description) + "\n";
+  }
   return text + kExplanations;
 }
 

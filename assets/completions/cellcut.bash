@@ -17,6 +17,7 @@ _cellcut_render() {
     --report) _cellcut_files 'json' ;;
     --environment) _cellcut_files 'exr|hdr' ;;
     --strategy) _cellcut_words 'uniform power proportional cell-cut point-cut light-tree' ;;
+    --quality) _cellcut_words 'preview balanced accurate' ;;
     --in-cluster) _cellcut_words 'intensity descent' ;;
     --sampler) _cellcut_words 'sobol independent' ;;
     --punctual-scale) _cellcut_words 'blender' ;;
@@ -26,7 +27,7 @@ _cellcut_render() {
     *)
       if [[ $cur == -* ]]; then
         _cellcut_words '-o --output --report --strategy --spp --time --noise --size --max-depth --seed --threads --camera
-          --sampler --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale --environment-rotation --punctual-scale --help'
+          --sampler --quality --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale --environment-rotation --punctual-scale --help'
       else
         _cellcut_files 'gltf|glb|obj'
       fi

@@ -25,6 +25,20 @@ struct SamplerSettings {
   std::size_t cellMemory = std::size_t{256} << 20;  ///< bytes of kept cuts; beyond, cuts are found again at every use
 };
 
+/// Settings by what they trade. Their values come from measurement: README, "Measured".
+struct Quality {
+  std::string_view name;         ///< on the command line
+  std::string_view description;  ///< one line
+  SamplerSettings settings;
+};
+inline constexpr std::array kQualities{
+    Quality{"preview",
+            "the cheapest passes and cells, for a first look",
+            {.threshold = 0.005f, .maxCut = 256, .inCluster = InCluster::kIntensity}},
+    Quality{"balanced", "the least noise for the time, over the recipes", {}},
+    Quality{"accurate", "the least noise per sample, for long renderings", {.threshold = 0.0005f, .maxCut = 2048}},
+};
+
 /// Largest maxCut: the weights of a cut lie on the stack.
 inline constexpr int kMaxCutSize = 4096;
 inline constexpr int kMaxGridResolution = 1024;

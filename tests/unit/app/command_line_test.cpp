@@ -1,6 +1,7 @@
 #include "app/command_line.h"
 
 #include "renderer/base/image_io.h"
+#include "renderer/sampling/sampler_settings.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/recipes/recipe.h"
 #include "tests/support/temporary_directory.h"
@@ -126,6 +127,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   std::ifstream file(CELLCUT_ASSETS "/completions/cellcut.bash");
   const std::string script(std::istreambuf_iterator<char>(file), {});
   for (const StrategyName& s : kStrategies) EXPECT_THAT(script, HasSubstr(std::string(s.name)));
+  for (const Quality& q : kQualities) EXPECT_THAT(script, HasSubstr(std::string(q.name)));
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string verb : {"render", "compare", "generate", "info"}) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'render compare generate info"));

@@ -156,6 +156,24 @@ TEST_F(RenderOptionsTest, UnknownStrategyAndSamplerListTheKnownOnes) {
   EXPECT_THAT(refusalOf({"--sampler", "halton"}), HasSubstr("sobol, independent"));
 }
 
+TEST_F(RenderOptionsTest, QualityIsAPresetAndAnExplicitOptionWins) {
+  for (const Quality& q : kQualities) {
+    const SamplerSettings s = parse({"--quality", std::string(q.name)}).settings.sampler;
+    EXPECT_EQ(s.maxCut, q.settings.maxCut);
+    EXPECT_EQ(s.gridResolution, q.settings.gridResolution);
+    EXPECT_EQ(s.threshold, q.settings.threshold);
+    EXPECT_EQ(s.inCluster, q.settings.inCluster);
+  }
+  for (const bool first : {true, false}) {
+    std::vector<std::string> args{"--quality", "accurate"};
+    args.insert(first ? args.begin() : args.end(), {"--max-cut", "77"});
+    const SamplerSettings s = parse(args).settings.sampler;
+    EXPECT_EQ(s.maxCut, 77);
+    EXPECT_EQ(s.gridResolution, kQualities.back().settings.gridResolution);
+  }
+  EXPECT_THAT(refusalOf({"--quality", "best"}), HasSubstr("preview, balanced, accurate"));
+}
+
 TEST_F(RenderOptionsTest, EnvironmentSettingsNeedAnEnvironment) {
   EXPECT_THROW(parse({"--environment-scale", "2"}), CLI::RequiresError);
   EXPECT_THROW(parse({"--environment-rotation", "2"}), CLI::RequiresError);
