@@ -30,6 +30,8 @@ class GlProgram {
 
  private:
   explicit GlProgram(GlProgramHandle handle) : handle_(std::move(handle)) {}
+  int location(const char* uniform) const;
+
   GlProgramHandle handle_;
 };
 

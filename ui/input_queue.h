@@ -17,12 +17,14 @@ class InputQueue {
  public:
   void push(std::span<const InputEvent> events);
 
-  /// The longest run of events from the front whose order their final state tells:
+  /// The longest run of events from the front whose order can be told from what they leave behind:
   ///   a button, or a key, changes once;
-  ///   no key goes down after another went up, nor up after another went down, so that Ctrl+C is seen as such;
-  ///   the pointer moves only before buttons, keys, text and the wheel, and the wheel turns before buttons;
-  ///   keys change only before text, and text waits for a key that edits text (Enter, Backspace, arrows …).
-  /// Losing the focus ends the run. Not empty unless the queue is.
+  ///   keys go down or up, not both, so that Ctrl+C is seen as such;
+  ///   the pointer moves before everything else; the wheel and the buttons take turns;
+  ///   keys change before buttons and before text; text never comes with buttons, nor with a key that edits text
+  ///   (Enter, Backspace, arrows …);
+  ///   losing the focus comes last.
+  /// Not empty unless the queue is.
   std::vector<InputEvent> takeFrame();
 
   bool empty() const { return events_.empty(); }

@@ -1,0 +1,7 @@
+#version 330 core
+// One triangle over all of the viewport; the clip rectangle is the scissor's.
+
+void main() {
+  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(corner, 0.0, 1.0);
+}

@@ -1,0 +1,77 @@
+#include "ui/gl_program.h"
+
+#include "ui/gl_error.h"
+
+#include <string>
+
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace cellcut {
+
+namespace {
+
+GlShaderHandle compile(GLenum stage, std::string_view name, std::string_view text) {
+  GlShaderHandle shader(glCreateShader(stage));
+  const char* const start = text.data();
+  const auto length = static_cast<GLint>(text.size());
+  glShaderSource(shader.name(), 1, &start, &length);
+  glCompileShader(shader.name());
+  GLint compiled = GL_FALSE;
+  glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_TRUE) return shader;
+  GLint size = 0;
+  glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &size);
+  std::string log(static_cast<std::size_t>(size), '\0');
+  glGetShaderInfoLog(shader.name(), size, &size, log.data());
+  log.resize(static_cast<std::size_t>(size));
+  throw GlError(std::string(name) + ": does not compile: " + log);
+}
+
+GlProgramHandle link(std::string_view name, const GlShaderHandle& vertex, const GlShaderHandle& fragment) {
+  GlProgramHandle program(glCreateProgram());
+  glAttachShader(program.name(), vertex.name());
+  glAttachShader(program.name(), fragment.name());
+  glLinkProgram(program.name());
+  glDetachShader(program.name(), vertex.name());
+  glDetachShader(program.name(), fragment.name());
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return program;
+  GLint size = 0;
+  glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &size);
+  std::string log(static_cast<std::size_t>(size), '\0');
+  glGetProgramInfoLog(program.name(), size, &size, log.data());
+  log.resize(static_cast<std::size_t>(size));
+  throw GlError(std::string(name) + ": does not link: " + log);
+}
+
+}  // namespace
+
+GlProgram::GlProgram(std::string_view vertexFile, std::string_view fragmentFile)
+    : handle_(link(fragmentFile, compile(GL_VERTEX_SHADER, vertexFile, shaderText(vertexFile)),
+                   compile(GL_FRAGMENT_SHADER, fragmentFile, shaderText(fragmentFile)))) {}
+
+GlProgram GlProgram::fromText(std::string_view name, std::string_view vertexText, std::string_view fragmentText) {
+  return GlProgram(
+      link(name, compile(GL_VERTEX_SHADER, name, vertexText), compile(GL_FRAGMENT_SHADER, name, fragmentText)));
+}
+
+void GlProgram::use() const { glUseProgram(handle_.name()); }
+
+void GlProgram::set(const char* uniform, int value) const { glUniform1i(location(uniform), value); }
+void GlProgram::set(const char* uniform, float value) const { glUniform1f(location(uniform), value); }
+void GlProgram::set(const char* uniform, const Vec2& value) const { glUniform2f(location(uniform), value.x, value.y); }
+void GlProgram::set(const char* uniform, const Vec3& value) const {
+  glUniform3f(location(uniform), value.x, value.y, value.z);
+}
+void GlProgram::set(const char* uniform, const Vec4& value) const {
+  glUniform4f(location(uniform), value.x, value.y, value.z, value.w);
+}
+void GlProgram::set(const char* uniform, const glm::mat4& value) const {
+  glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+int GlProgram::location(const char* uniform) const { return glGetUniformLocation(handle_.name(), uniform); }
+
+}  // namespace cellcut
