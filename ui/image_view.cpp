@@ -31,9 +31,7 @@ void setScissor(PixelSize framebuffer, const PixelRect& rect) {
 ImagePlacement fitImage(PixelSize image, const PixelRect& area) {
   const Vec2 size(image.width, image.height);
   const Vec2 ratio = area.size / size;
-  float scale = std::min(ratio.x, ratio.y);
-  // Whole factors make all pixels equally large; from 1 to 2 they would leave up to half of the area unused.
-  if (scale >= 2) scale = std::floor(scale);
+  const float scale = std::min(ratio.x, ratio.y);
   return {glm::round(area.origin + 0.5f * (area.size - size * scale)), scale};
 }
 

@@ -23,8 +23,8 @@ struct ImagePlacement {
   Vec2 toFramebuffer(const Vec2& imagePosition) const { return origin + imagePosition * scale; }
 };
 
-/// The largest picture that fits into `area`, centred, its corner and, from 1 up, its scale on whole pixels where that
-/// costs less than half of the size. \pre neither is empty
+/// The largest picture that fits into `area`, centred, its corner on a whole pixel; 1:1 if the sizes are equal.
+/// \pre neither is empty
 ImagePlacement fitImage(PixelSize image, const PixelRect& area);
 
 /// The image pixel under a framebuffer position; nothing outside the picture.

@@ -50,7 +50,7 @@ class Window {
   /// Collects input without waiting.
   virtual void pollEvents() = 0;
   /// Collects input; sleeps until there is some, wake() was called (also before this call), or the time is over.
-  /// \param seconds ≥ 0
+  /// \param seconds ≥ 0, finite
   virtual void waitEvents(double seconds) = 0;
   /// Ends waitEvents(), from any thread, while the window exists.
   virtual void wake() noexcept = 0;
@@ -77,13 +77,15 @@ class Window {
 
  protected:
   Window() = default;
+  bool hasInput() const { return !events_.empty() || !droppedFiles_.empty(); }
 
  private:
   std::vector<InputEvent> events_;
   std::vector<std::filesystem::path> droppedFiles_;
 };
 
-/// \throws GlError if this kind cannot be had here, with the reason and what to do. At most one GLFW window at a time.
+/// \throws GlError if this kind cannot be had here, with the reason and what to do.
+/// At most one GLFW window at a time, and no other kind while an OSMesa window lives.
 std::unique_ptr<Window> openWindow(WindowKind kind, const WindowSettings& settings);
 
 struct OpenedWindow {
