@@ -20,9 +20,9 @@ struct Place {
   Vec3 n;
   const Accel* occluders;
 
-  /// Share of what leaves p + d that arrives at p: 0 or 1. The ray starts and stops a ten-thousandth off both ends; the
-  /// geometry of the tests keeps its distance. It is aimed from where it starts: parallel to d it would end behind a
-  /// light that is seen at a grazing angle.
+  /// Share of what leaves p + d that arrives at p: 0 or 1. The ray starts a millionth off p, ten roundings of a float
+  /// there (farther off, shadows of other facets would have moved), and stops a ten-thousandth of its length before the
+  /// light. It is aimed from where it starts: parallel to d it would end behind a light that is seen at a grazing angle.
   double visibility(const DVec3& d) const { return !occluders || !blocked(d - kOffset * DVec3(n), 0.9999f) ? 1 : 0; }
   /// The same for what comes from infinity.
   double visibilityTowards(const DVec3& direction) const {
@@ -30,7 +30,7 @@ struct Place {
   }
 
  private:
-  static constexpr double kOffset = 1e-4;
+  static constexpr double kOffset = 1e-6;
   bool blocked(const DVec3& along, float end) const {
     return occluders->occluded({Vec3(DVec3(p) + kOffset * DVec3(n)), Vec3(along), end}, 0);
   }
@@ -134,8 +134,7 @@ DVec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, co
     case LightKind::kDirectional: {
       const DirectionalLight& directional = scene.directionalLights[i];
       const DVec3 d = -DVec3(directional.axis);
-      return DVec3(directional.irradiance) * std::max(0.0, glm::dot(d, DVec3(n))) *
-             place.visibilityTowards(d);
+      return DVec3(directional.irradiance) * std::max(0.0, glm::dot(d, DVec3(n))) * place.visibilityTowards(d);
     }
     case LightKind::kEnvironment:
       return tileIrradiance(*lights.environment(), i, place, resolution);
