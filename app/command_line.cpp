@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -51,6 +52,21 @@ int reportParseOutcome(const CLI::App& program, const CLI::ParseError& outcome, 
   return kBadInput;
 }
 
+#ifdef CELLCUT_UI
+/// `cellcut` and `cellcut SCENE` are `cellcut view`: the verb is put in where there is none.
+std::vector<const char*> withVerb(std::span<const char* const> args, const CLI::App& program) {
+  std::vector<const char*> completed(args.begin(), args.end());
+  const std::string first = args.size() > 1 ? args[1] : "";
+  const bool ofProgram = first == "--help" || first == "-h" || first == "--version";
+  const auto verbs = program.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
+  // A word that is neither a verb nor a file is a verb that was mistyped.
+  const bool isWord = !first.empty() && first[0] != '-' && first.find('.') == std::string::npos;
+  if (ofProgram || !verbs.empty() || isWord || completed.empty()) return completed;
+  completed.insert(completed.begin() + 1, "view");
+  return completed;
+}
+#endif
+
 int parseAndRun(std::span<const char* const> args, const Console& console) {
   CLI::App program("Renders scenes with very many lights.", "cellcut");
   program.set_version_flag("--version", "cellcut " CELLCUT_VERSION);
@@ -58,9 +74,16 @@ int parseAndRun(std::span<const char* const> args, const Console& console) {
   program.get_formatter()->column_width(36);
   program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.footer("Each verb has its own help with examples: cellcut render --help");
+#ifdef CELLCUT_UI
+  const std::array verbs{addView(program),    addScreenshot(program), addRender(program),
+                         addCompare(program), addGenerate(program),   addInfo(program)};
+  const std::vector<const char*> completed = withVerb(args, program);
+#else
   const std::array verbs{addRender(program), addCompare(program), addGenerate(program), addInfo(program)};
+  const std::vector<const char*> completed(args.begin(), args.end());
+#endif
   try {
-    program.parse(static_cast<int>(args.size()), args.data());
+    program.parse(static_cast<int>(completed.size()), completed.data());
   } catch (const CLI::ParseError& outcome) {
     return reportParseOutcome(program, outcome, console);
   }

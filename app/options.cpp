@@ -186,6 +186,10 @@ std::string describeCameras(const Scene& scene) {
 
 void addRenderOptions(CLI::App& verb, RenderOptions& options) {
   addFiles(verb, options);
+  addPictureOptions(verb, options);
+}
+
+void addPictureOptions(CLI::App& verb, RenderOptions& options) {
   addStopRule(verb, options.stop);
   addSampling(verb, options.settings);
   addCuts(verb, options.settings.sampler);

@@ -44,6 +44,9 @@ inline constexpr std::uint64_t kMaxPasses = 1u << 30;  // film sums are proved r
 /// Parsing throws InputError for a value that cannot be used.
 void addRenderOptions(CLI::App& verb, RenderOptions& options);
 
+/// The same without SCENE, --output and --report: what says how a picture is made and not where it goes.
+void addPictureOptions(CLI::App& verb, RenderOptions& options);
+
 /// Index of a camera by its exact name, else by its number from 0. Empty text is the first camera.
 /// \throws InputError that lists the cameras
 std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex);

@@ -25,5 +25,9 @@ Verb addRender(CLI::App& program);
 Verb addCompare(CLI::App& program);
 Verb addGenerate(CLI::App& program);
 Verb addInfo(CLI::App& program);
+#ifdef CELLCUT_UI
+Verb addView(CLI::App& program);
+Verb addScreenshot(CLI::App& program);
+#endif
 
 }  // namespace cellcut

@@ -1,0 +1,213 @@
+/// The verb `screenshot`: one picture of the viewer, without a display, and its numbers as JSON.
+#include "app/command_line.h"
+#include "app/numbers.h"
+#include "app/report.h"
+#include "app/verbs.h"
+#include "app/viewer_options.h"
+#include "renderer/base/error.h"
+
+#include <cmath>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+namespace cellcut {
+namespace {
+
+constexpr const char* kExplanations = R"(
+Beside OUT.png an OUT.json says what the overlay shows: minimum, maximum, mean, the share of cells touched, and with --pick
+the inspector's table. --size is that of the PNG; with panels the rendering is what is left of it.
+
+Examples:
+  cellcut screenshot room.glb -o room.png --overlay cut-size --spp 16
+  cellcut screenshot room.glb -o cell.png --pick 400,200 --grid
+  cellcut screenshot room.glb -o ab.png --split cell-cut:power --no-ui)";
+
+constexpr std::uint64_t kDefaultPasses = 16;
+
+struct ScreenshotOptions {
+  ViewerCommandLine common;
+  std::filesystem::path output;
+  bool noUi = false;
+  OverlayChoice overlay;
+  std::optional<glm::ivec2> pick;
+  std::optional<std::pair<Strategy, Strategy>> split;
+};
+
+template <class Entries, class Value>
+Value named(const Entries& entries, Value (*valueOf)(const typename Entries::value_type&), const std::string& option,
+            const std::string& name) {
+  std::string known;
+  for (const auto& entry : entries) {
+    if (entry.name == name) return valueOf(entry);
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  throw InputError(option, "'" + name + "' is none of " + known);
+}
+
+Strategy strategyNamed(const std::string& option, const std::string& name) {
+  return named<decltype(kStrategies), Strategy>(
+      kStrategies, [](const StrategyName& s) { return s.strategy; }, option, name);
+}
+
+/// "A:B" in two halves.
+std::pair<std::string, std::string> halves(const std::string& option, const std::string& text, char separator) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) throw InputError(option, "'" + text + "' has no '" + std::string(1, separator) + "'");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+void addOverlayOptions(CLI::App& verb, OverlayChoice& overlay) {
+  const auto add = [&verb](const char* name, const char* type, const std::function<void(const std::string&)>& use,
+                           const char* description) {
+    verb.add_option_function<std::string>(name, use, description)->type_name(type);
+  };
+  add(
+      "--overlay", "NAME",
+      [&overlay](const std::string& t) {
+        overlay.overlay = named<decltype(kOverlays), Overlay>(
+            kOverlays, [](const OverlayName& o) { return o.overlay; }, "--overlay", t);
+      },
+      "none, touched, visits, cut-size, estimate, tree-depth, variance, samples, error or nan");
+  add(
+      "--overlay-range", "A:B",
+      [&overlay](const std::string& t) {
+        const auto [a, b] = halves("--overlay-range", t, ':');
+        overlay.scale.pinned = ValueRange{parseReal("--overlay-range", a, {}), parseReal("--overlay-range", b, {})};
+      },
+      "Colours from A to B, not from the least to the largest value");
+  add(
+      "--overlay-scale", "linear|log",
+      [&overlay](const std::string& t) {
+        const auto kind = scaleFromName(t);
+        if (!kind) throw InputError("--overlay-scale", "'" + t + "' is none of linear, log");
+        overlay.scale.kind = *kind;
+      },
+      "Of the colours (default linear)");
+  add(
+      "--overlay-opacity", "X",
+      [&overlay](const std::string& t) {
+        overlay.opacity = static_cast<float>(parseReal("--overlay-opacity", t, {.least = 0, .most = 1}));
+      },
+      "0 … 1 (default 0.7)");
+  add(
+      "--colormap", "NAME",
+      [&overlay](const std::string& t) {
+        overlay.scale.colormap = named<decltype(kColormaps), Colormap>(
+            kColormaps, [](const ColormapName& c) { return c.colormap; }, "--colormap", t);
+      },
+      "viridis, turbo or magma (default viridis)");
+  verb.add_flag("--grid", overlay.grid, "Wireframe of the cells that were touched");
+}
+
+/// What the PNG shows in numbers.
+nlohmann::ordered_json numbersOf(const Viewer& viewer, const OverlayChoice& choice, const Snapshot& snapshot) {
+  nlohmann::ordered_json json;
+  json["width"] = snapshot.width;
+  json["height"] = snapshot.height;
+  json["spp"] = snapshot.passes;
+  json["overlay"] = describe(choice.overlay).name;
+  const OverlayPicture* overlay = viewer.overlay();
+  if (!overlay) return json;
+  if (overlay->statistics.count > 0) {
+    json["minimum"] = overlay->statistics.minimum;
+    json["maximum"] = overlay->statistics.maximum;
+    json["mean"] = overlay->statistics.mean;
+    json["pixels"] = overlay->statistics.count;
+  }
+  if (overlay->touched) {
+    json["cells"] = {{"touched", overlay->touched->inside},
+                     {"outside", overlay->touched->outside},
+                     {"all", overlay->touched->all},
+                     {"touched_percent", 100 * overlay->touched->share()}};
+  }
+  if (overlay->inspection) json["pick"] = toJson(*overlay->inspection);
+  return json;
+}
+
+/// Frames until the rendering has its samples.
+void renderToEnd(Viewer& viewer, Window& window, std::uint64_t passes) {
+  constexpr double kFrameSeconds = 1.0 / 60;
+  viewer.frame(kFrameSeconds);
+  viewer.session().waitPasses(passes);
+  viewer.session().waitIdle();
+  window.pollEvents();
+  viewer.frame(kFrameSeconds);
+}
+
+int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
+  const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
+  const RenderSettings& settings = options.common.render.settings;
+  const std::unique_ptr<Window> window =
+      openWindow(options.common.windowKind.value_or(WindowKind::kEgl), {.size = {settings.width, settings.height}});
+  ViewerOptions viewerOptions = cellcut::viewerOptions(options.common, *scene);
+  viewerOptions.sizeSettleFrames.reset();
+  ViewerState& state = viewerOptions.state;
+  if (!state.passLimit && !state.timeLimit && !state.noiseLimit) state.passLimit = kDefaultPasses;
+  state.overlay = options.overlay;
+  state.showUi = !options.noUi;
+  if (options.split) state.settings.strategy = options.split->second;
+  const std::uint64_t passes = state.passLimit.value_or(1);
+
+  Viewer viewer(*window, scene, sceneLoader(options.common), viewerOptions);
+  renderToEnd(viewer, *window, passes);
+  if (options.split) {
+    viewer.storePicture();
+    viewer.state().settings.strategy = options.split->first;
+    renderToEnd(viewer, *window, passes);
+  }
+  const std::shared_ptr<const Snapshot> snapshot = viewer.session().snapshot();
+  if (options.pick) {
+    if (options.pick->x >= snapshot->width || options.pick->y >= snapshot->height) {
+      throw InputError("--pick", "the picture has " + std::to_string(snapshot->width) + " x " +
+                                     std::to_string(snapshot->height) + " pixels");
+    }
+    viewer.state().pick = options.pick;
+  }
+  viewer.refreshOverlay();
+  for (int i = 0; i < 3; ++i) viewer.frame(1.0 / 60);
+  writeBytes(options.output, encodePng(viewer.picture()));
+  std::filesystem::path numbers = options.output;
+  numbers.replace_extension(".json");
+  const std::string text = numbersOf(viewer, options.overlay, *snapshot).dump(2) + "\n";
+  writeBytes(numbers, std::as_bytes(std::span(text)));
+  console.err << "wrote " << options.output.string() << " and " << numbers.string() << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+Verb addScreenshot(CLI::App& program) {
+  CLI::App* verb = program.add_subcommand("screenshot", "A picture of the viewer with its overlays, without a display");
+  const auto options = std::make_shared<ScreenshotOptions>();
+  ScreenshotOptions& o = *options;
+  addViewerOptions(*verb, o.common, true);
+  const auto add = [verb](const char* name, const char* type, const std::function<void(const std::string&)>& use,
+                          const char* description) {
+    return verb->add_option_function<std::string>(name, use, description)->type_name(type);
+  };
+  const auto output = [&o](const std::string& t) {
+    const Output checked = checkedOutput(t);
+    if (checked.kind != PictureKind::kPng) throw InputError(t, "a screenshot is a .png");
+    o.output = checked.file;
+  };
+  add("-o,--output", "FILE", output, "Picture, .png; numbers go to the .json beside it")->required();
+  verb->add_flag("--no-ui", o.noUi, "The picture and its overlay alone");
+  addOverlayOptions(*verb, o.overlay);
+  const auto pick = [&o](const std::string& t) {
+    const auto [x, y] = halves("--pick", t, ',');
+    o.pick = glm::ivec2(static_cast<int>(parseWhole("--pick", x, {.most = kMaxPictureSide})),
+                        static_cast<int>(parseWhole("--pick", y, {.most = kMaxPictureSide})));
+  };
+  add("--pick", "X,Y", pick, "Inspect the cell behind that pixel of the picture");
+  const auto split = [&o](const std::string& t) {
+    const auto [a, b] = halves("--split", t, ':');
+    o.split = std::pair(strategyNamed("--split", a), strategyNamed("--split", b));
+  };
+  add("--split", "STRATEGY:STRATEGY", split, "Two strategies side by side in one picture");
+  verb->footer(kExplanations);
+  return {verb, [options](const Console& console) { return takeScreenshot(*options, console); }};
+}
+
+}  // namespace cellcut

@@ -1,0 +1,98 @@
+/// The verb `view`: the interactive viewer, on a display or replaying a script without one.
+#include "app/command_line.h"
+#include "app/verbs.h"
+#include "app/viewer_options.h"
+#include "renderer/base/error.h"
+#include "ui/viewer/script.h"
+
+#include <chrono>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+namespace cellcut {
+namespace {
+
+constexpr const char* kExplanations = R"(
+F1 shows the keys. --size is the window's. Without --spp, --time and --noise rendering goes on until the window closes.
+
+--headless needs no display; with --script it replays input, one action a line, and stops at its end:
+  size W H | click LABEL | set LABEL VALUE | drag left|middle|right X0 Y0 X1 Y1 | scroll X Y DY | key NAME | pick X Y
+  drop FILE | wait spp N | wait idle | screenshot FILE | expect LABEL VALUE | quit
+Labels of several words stand in quotes. A label that is not there and an expectation that fails end it with exit code 2.
+
+Examples:
+  cellcut                                    a generated building with 4,000 lamps
+  cellcut room.glb --strategy light-tree
+  cellcut view --headless --script actions.txt room.glb)";
+
+struct ViewOptions {
+  ViewerCommandLine common;
+  bool headless = false;
+  std::optional<std::filesystem::path> script;
+};
+
+OpenedWindow windowFor(const ViewOptions& options) {
+  const WindowSettings settings{
+      .size = {options.common.render.settings.width, options.common.render.settings.height}};
+  if (options.common.windowKind) return {openWindow(*options.common.windowKind, settings), ""};
+  if (options.headless) return {openWindow(WindowKind::kEgl, settings), ""};
+  return openAnyWindow(settings);
+}
+
+void runUntilClosed(Viewer& viewer, Window& window) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last = Clock::now();
+  while (!window.shouldClose()) {
+    const double sleep = viewer.sleepSeconds();
+    if (sleep > 0) {
+      window.waitEvents(sleep);
+    } else {
+      window.pollEvents();
+    }
+    const Clock::time_point now = Clock::now();
+    viewer.frame(std::chrono::duration<double>(now - last).count());
+    last = now;
+  }
+}
+
+int showViewer(const ViewOptions& options, const Console& console) {
+  if (options.headless && !options.script) {
+    throw InputError("--headless", "needs --script; for a single picture there is 'cellcut screenshot'");
+  }
+  std::vector<ScriptAction> actions;
+  if (options.script) actions = readScript(*options.script);
+  const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
+  const OpenedWindow opened = windowFor(options);
+  if (!opened.notice.empty()) {
+    // Nobody would see what goes on in memory, nor could end it.
+    if (!options.script) {
+      throw std::runtime_error(opened.notice + "; for a picture there is 'cellcut screenshot', for a script --headless");
+    }
+    console.err << "cellcut: " << opened.notice << '\n';
+  }
+  Viewer viewer(*opened.window, scene, sceneLoader(options.common), viewerOptions(options.common, *scene));
+  if (options.script) {
+    ScriptPlayer(*options.script, std::move(actions), std::filesystem::current_path()).play(viewer, *opened.window);
+  } else {
+    runUntilClosed(viewer, *opened.window);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Verb addView(CLI::App& program) {
+  CLI::App* verb = program.add_subcommand("view", "Look at a scene while it renders (also without the word view)");
+  const auto options = std::make_shared<ViewOptions>();
+  ViewOptions& o = *options;
+  addViewerOptions(*verb, o.common, false);
+  verb->add_flag("--headless", o.headless, "No display: draw in memory");
+  verb->add_option_function<std::string>(
+          "--script", [&o](const std::string& text) { o.script = text; }, "Replay input from FILE; see below")
+      ->type_name("FILE");
+  verb->footer(kExplanations);
+  return {verb, [options](const Console& console) { return showViewer(*options, console); }};
+}
+
+}  // namespace cellcut

@@ -1,0 +1,105 @@
+#include "ui/viewer/panels.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include <imgui.h>
+
+namespace cellcut {
+namespace {
+
+/// Rows of the table: the rest are of clusters that hardly matter.
+constexpr std::size_t kRows = 100;
+
+std::string cellText(const CellCoordinates& cell) {
+  return std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " + std::to_string(cell.z);
+}
+
+/// Indices of the rows that are shown: the largest of probability and share first.
+std::vector<std::size_t> rowOrder(const std::vector<ClusterRow>& rows) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto weight = [&](std::size_t i) { return std::max(rows[i].cluster.probability, rows[i].share); };
+  const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(kRows, order.size()));
+  std::partial_sort(order.begin(), end, order.end(), [&](std::size_t a, std::size_t b) {
+    return weight(a) != weight(b) ? weight(a) > weight(b) : a < b;
+  });
+  order.erase(end, order.end());
+  return order;
+}
+
+void percent(double value) {
+  ImGui::TableNextColumn();
+  ImGui::Text("%.2f", 100 * value);
+}
+
+void drawTable(const std::vector<ClusterRow>& rows, ViewerState& state) {
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
+  if (!ImGui::BeginTable("clusters", 5, kFlags, ImVec2(0, 14 * ImGui::GetTextLineHeightWithSpacing()))) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  for (const char* column : {"lights", "estimate", "P %", "true %", "diff"}) ImGui::TableSetupColumn(column);
+  ImGui::TableHeadersRow();
+  for (const std::size_t i : rowOrder(rows)) {
+    const ClusterRow& row = rows[i];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushID(static_cast<int>(i));
+    const std::string name = std::to_string(row.cluster.lightCount) + (row.cluster.distant ? " far" : "");
+    ImGui::Selectable(name.c_str(), state.hoveredCluster == i, ImGuiSelectableFlags_SpanAllColumns);
+    if (ImGui::IsItemHovered()) {
+      state.hoveredCluster = i;
+      ImGui::SetTooltip("%s cluster of %u lights, level %d\nunoccluded %.4g W/m2, visible %.4g W/m2",
+                        row.cluster.far ? "cached" : "near", row.cluster.lightCount, row.cluster.depth,
+                        row.contribution.unoccluded, row.contribution.visible);
+    }
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2e", row.cluster.estimate);
+    percent(row.cluster.probability);
+    percent(row.share);
+    percent(row.mismatch);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
+  state.hoveredCluster.reset();
+  if (!state.pick || !ImGui::CollapsingHeader("Inspector", ImGuiTreeNodeFlags_DefaultOpen)) return ViewerCommand::kNone;
+  ViewerCommand command = ViewerCommand::kNone;
+  if (!facts.overlay || !facts.overlay->inspection) {
+    ImGui::TextUnformatted("looking …");
+    return command;
+  }
+  const PixelReport& report = *facts.overlay->inspection;
+  char text[96];
+  std::snprintf(text, sizeof text, "%d, %d", report.pixel.x, report.pixel.y);
+  widgets.text("Pixel", text);
+  if (report.radiance) {
+    std::snprintf(text, sizeof text, "%.4g %.4g %.4g", static_cast<double>(report.radiance->x),
+                  static_cast<double>(report.radiance->y), static_cast<double>(report.radiance->z));
+    widgets.text("Radiance", text, "W/(m² sr)");
+  }
+  if (report.variance) widgets.text("Variance", shortNumber(*report.variance, 4), "Of one sample");
+  if (!report.hit.hit()) {
+    ImGui::TextUnformatted("Nothing is hit there.");
+  } else if (!report.hasCut) {
+    ImGui::TextUnformatted("This strategy has no cuts.");
+  } else {
+    if (report.cell) widgets.text("Cell", cellText(*report.cell) + (report.kept ? "" : " (not touched)"));
+    widgets.text("Clusters", std::to_string(report.clusters.size()), "In the cut of the cell");
+    if (report.distance) {
+      widgets.text("Mismatch", shortNumber(*report.distance, 3),
+                   "Total variation distance between the probabilities and the true visible shares: 0 perfect, 1 hopeless");
+    }
+    drawTable(report.clusters, state);
+    if (widgets.button("Copy cut", "The table as JSON to the clipboard")) command = ViewerCommand::kExportCut;
+    ImGui::SameLine();
+  }
+  if (widgets.button("Close", "End the inspection (Escape)")) command = ViewerCommand::kUnpick;
+  return command;
+}
+
+}  // namespace cellcut

@@ -1,0 +1,117 @@
+#include "ui/viewer/overlay_source.h"
+
+#include <chrono>
+
+namespace cellcut {
+namespace {
+
+bool sameView(const Camera& a, const Camera& b) {
+  return a.orthographic == b.orthographic && a.position == b.position && a.right == b.right && a.up == b.up &&
+         a.back == b.back && a.halfHeight == b.halfHeight;
+}
+
+}  // namespace
+
+/// First hits change with the view alone: kept from overlay to overlay.
+struct OverlaySource::Cache {
+  const Scene* scene = nullptr;
+  Camera camera;
+  glm::ivec2 size{0};
+  Image<FirstHit> hits;
+  std::atomic<bool> stop{false};  ///< set when nobody waits any more
+
+  /// Nothing if it was stopped.
+  const Image<FirstHit>* of(const SessionView& view) {
+    const Camera& now = viewOf(view.scene, view.settings);
+    const glm::ivec2 wanted(view.settings.width, view.settings.height);
+    if (scene == &view.scene && size == wanted && sameView(camera, now)) return &hits;
+    std::optional<Image<FirstHit>> traced = traceFirstHits(view.scene, view.accel, now, wanted, stop);
+    if (!traced) return nullptr;
+    scene = &view.scene;
+    camera = now;
+    size = wanted;
+    hits = std::move(*traced);
+    return &hits;
+  }
+};
+
+namespace {
+
+/// Shadow rays per light and side of a square for the truth by brute force: about two million rays, a second or two.
+int samplesPerSide(std::size_t lights) {
+  return std::clamp(static_cast<int>(std::sqrt(2e6 / static_cast<double>(std::max<std::size_t>(lights, 1)))), 1, 8);
+}
+
+ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, bool grid, const PixelReport* inspection) {
+  std::vector<LineSegment> segments;
+  if (grid) {
+    if (const auto inspector = CutInspector::of(view.sampler)) segments = touchedCellSegments(*inspector);
+  }
+  if (inspection) {
+    const std::vector<LineSegment> boxes = inspectionSegments(*inspection);
+    segments.insert(segments.end(), boxes.begin(), boxes.end());
+  }
+  if (segments.empty()) return {};
+  ImageRgba8 lines(hits.width(), hits.height());
+  drawSegments(lines, hits, viewOf(view.scene, view.settings), segments);
+  return lines;
+}
+
+}  // namespace
+
+OverlaySource::OverlaySource() : cache_(std::make_shared<Cache>()) {}
+
+OverlaySource::~OverlaySource() {
+  cache_->stop = true;
+}
+
+void OverlaySource::request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
+                            std::shared_ptr<const ImageRgb> reference) {
+  if (busy()) return;
+  pending_ = session.inspect([cache = cache_, choice, pick, reference](const SessionView& view) {
+    OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};
+    const glm::ivec2 size(view.settings.width, view.settings.height);
+    const Image<FirstHit>* hits = cache->of(view);
+    if (!hits) return picture;
+    const ImageRgb mean = view.film.mean(), error = view.film.standardError();
+    const OverlayInputs inputs{.firstHits = hits,
+                               .sampler = &view.sampler,
+                               .mean = &mean,
+                               .standardError = &error,
+                               .passes = view.film.passes(),
+                               .reference = reference.get(),
+                               .badSamples = &view.film.badSampleCounts()};
+    if (choice.overlay != Overlay::kNone) {
+      if (auto values = computeOverlay(choice.overlay, inputs, size, cache->stop)) {
+        picture.values = std::move(*values);
+        picture.statistics = statisticsOf(picture.values);
+      }
+    }
+    picture.touched = touchedCells(view.sampler);
+    if (pick && pick->x >= 0 && pick->y >= 0 && pick->x < size.x && pick->y < size.y) {
+      const InspectionInputs looked{.scene = view.scene,
+                                    .accel = view.accel,
+                                    .lights = view.lights,
+                                    .sampler = view.sampler,
+                                    .camera = viewOf(view.scene, view.settings),
+                                    .size = size,
+                                    .mean = &mean,
+                                    .standardError = &error,
+                                    .passes = view.film.passes()};
+      picture.inspection = inspectPixel(looked, *pick, samplesPerSide(view.lights.size()), cache->stop);
+    }
+    picture.lines = drawLines(view, *hits, choice.grid, picture.inspection ? &*picture.inspection : nullptr);
+    return picture;
+  });
+}
+
+std::optional<OverlayPicture> OverlaySource::take() {
+  if (!busy() || pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  return pending_.get();
+}
+
+void OverlaySource::wait() const {
+  if (busy()) pending_.wait();
+}
+
+}  // namespace cellcut

@@ -1,0 +1,51 @@
+/// \file overlay_source.h
+/// Overlays and inspections of a running session, made on the session's own thread so that the UI never waits.
+#pragma once
+
+#include "renderer/trace/session.h"
+#include "ui/overlays/cell_inspector.h"
+#include "ui/overlays/wireframe.h"
+#include "ui/viewer/viewer_state.h"
+
+#include <future>
+#include <memory>
+#include <optional>
+
+namespace cellcut {
+
+/// What is drawn over a picture, and the numbers behind it.
+struct OverlayPicture {
+  std::uint64_t generation = 0;  ///< of the session's edit that it belongs to
+  Overlay overlay = Overlay::kNone;
+  Image<float> values;  ///< empty without an overlay
+  OverlayStatistics statistics;
+  std::optional<TouchedCells> touched;
+  ImageRgba8 lines;  ///< wireframe, transparent elsewhere; empty without lines
+  std::optional<PixelReport> inspection;
+};
+
+/// At most one request is on its way. Threads: one (the UI's).
+class OverlaySource {
+ public:
+  OverlaySource();
+  ~OverlaySource();
+  OverlaySource(const OverlaySource&) = delete;
+  OverlaySource& operator=(const OverlaySource&) = delete;
+
+  /// Asks for a new one unless a request is on its way.
+  /// \param reference  may be null
+  void request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
+               std::shared_ptr<const ImageRgb> reference);
+  /// What came in since the last call.
+  std::optional<OverlayPicture> take();
+  bool busy() const { return pending_.valid(); }
+  /// Until the request is answered: for scripts and screenshots.
+  void wait() const;
+
+ private:
+  struct Cache;
+  std::shared_ptr<Cache> cache_;  ///< touched by the session's thread only
+  std::future<OverlayPicture> pending_;
+};
+
+}  // namespace cellcut

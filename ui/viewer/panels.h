@@ -1,0 +1,53 @@
+/// \file panels.h
+/// The viewer's panels. Each draws what there is and edits the state that it is handed; nobody is told.
+#pragma once
+
+#include "renderer/trace/snapshot.h"
+#include "ui/viewer/overlay_source.h"
+#include "ui/viewer/viewer_state.h"
+#include "ui/viewer/widgets.h"
+
+#include <string>
+
+namespace cellcut {
+
+/// What panels show and cannot change.
+struct ViewerFacts {
+  const Scene& scene;
+  const Snapshot& snapshot;
+  const OverlayPicture* overlay;  ///< null before the first
+  bool hasStored;                 ///< a picture to compare with is stored
+  std::string problem;            ///< of the last file or edit, for a person; empty: none
+};
+
+/// What a person asked for by a button or a key: at most one per frame.
+enum class ViewerCommand {
+  kNone,
+  kStore,        ///< keep the picture for comparison
+  kForget,       ///< drop it
+  kSave,         ///< the window as PNG, the rendering as EXR
+  kReload,       ///< the scene's file
+  kResetCamera,
+  kCopyCamera,
+  kPasteCamera,
+  kSingleStep,
+  kDismiss,      ///< the problem
+  kUnpick,
+  kExportCut
+};
+
+ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+ViewerCommand drawViewPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts);
+ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+ViewerCommand drawProblem(Widgets& widgets, const ViewerFacts& facts);
+void drawHelp(bool& open);
+/// The bar that says which colour is which number, in a corner of the picture.
+/// \param area  of the picture, framebuffer pixels
+void drawLegend(const OverlayPicture& overlay, const OverlayChoice& choice, const PixelRect& area, float uiScale);
+
+/// The settings of a quality; index into kQualities, or nothing if the settings are no preset's.
+std::optional<std::size_t> qualityOf(const SamplerSettings& settings);
+
+}  // namespace cellcut

@@ -1,0 +1,127 @@
+/// \file viewer.h
+/// The interactive viewer: a render session, the panels that change it, and the picture with what is drawn over it.
+///
+/// One object whatever the window: tests and scripts drive the code that a person drives. Threads: the window's.
+#pragma once
+
+#include "renderer/trace/session.h"
+#include "ui/gl_framebuffer.h"
+#include "ui/gui.h"
+#include "ui/image_view.h"
+#include "ui/viewer/overlay_source.h"
+#include "ui/viewer/panels.h"
+#include "ui/viewer/viewer_state.h"
+#include "ui/viewer/widgets.h"
+#include "ui/window.h"
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+
+namespace cellcut {
+
+/// Where scenes come from; runs on a thread of its own.
+/// \throws InputError if the file cannot be used
+using SceneLoader = std::function<std::shared_ptr<const Scene>(const std::filesystem::path&)>;
+
+struct ViewerOptions {
+  ViewerState state;
+  float uiScale = 1;                                 ///< [0.5, 4]
+  std::filesystem::path file;                        ///< of the scene, for F5
+  std::filesystem::path saveFolder = ".";            ///< of F12
+  std::shared_ptr<const ImageRgb> reference;         ///< for the overlay `error`; may be null
+  std::optional<std::uint64_t> sizeSettleFrames = 3; ///< frames of one size before the rendering follows the window
+};
+
+class Viewer {
+ public:
+  /// \pre the window's context is current, in every member. The window outlives the viewer.
+  Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader loader, ViewerOptions options);
+  ~Viewer();
+
+  /// Input, panels, edits, drawing; shows it in the window.
+  /// \param seconds  since the last frame
+  void frame(double seconds);
+  /// How long the window may sleep when nothing comes in; 0 while there is something to animate.
+  double sleepSeconds() const;
+
+  /// What the last frame drew.
+  ImageRgba8 picture() const { return framebuffer_->read(); }
+  /// Opens a scene file as if it had been dropped onto the window.
+  void open(const std::filesystem::path& file);
+
+  const Widgets& widgets() const { return shown_; }
+  ViewerState& state() { return state_; }
+  RenderSession& session() { return session_; }
+  const OverlayPicture* overlay() const { return overlay_ ? &*overlay_ : nullptr; }
+  const std::string& problem() const { return problem_; }
+  PixelRect imageArea() const { return area_; }
+  ImagePlacement placement() const { return placement_; }
+  /// Whether the newest snapshot is of the newest edit and nothing is being loaded or looked up.
+  bool settled() const;
+  /// Asks for the overlay and waits for it: for screenshots.
+  void refreshOverlay();
+  /// Keeps the picture that is shown to compare with.
+  void storePicture();
+
+ private:
+  struct Drag {
+    bool active = false;
+    bool moved = false;  ///< farther than a click
+    Vec2 start{0};
+  };
+  void takeNews();
+  void takeScene();
+  void drawPanels();
+  ViewerCommand readKeys(double seconds);
+  void readMouse();
+  void run(ViewerCommand command);
+  void fly(double seconds);
+  void setPose(const CameraPose& pose);
+  CameraPose pose() const;
+  void focusAt(const Vec2& position);
+  void applyEdits();
+  void followSize();
+  void requestOverlay();
+  void showOverlay();
+  void drawOverPicture();
+  void drawHoveredCluster();
+  void save();
+  void guarded(const std::function<void()>& action);
+
+  Window& window_;
+  std::shared_ptr<const Scene> scene_;
+  SceneLoader loader_;
+  ViewerOptions options_;
+  ViewerState state_;
+  SessionInput applied_;
+  std::uint64_t generation_ = 0;
+  bool edited_ = true;
+  CameraPose pose_;
+  Drag drags_[kMouseButtonCount];
+  bool flying_ = false, flip_ = false;
+
+  Gui gui_;
+  ImageView view_;
+  std::unique_ptr<GlFramebuffer> framebuffer_;
+  Widgets shown_;
+  PixelRect area_;
+  ImagePlacement placement_;
+  PixelSize wantedSize_;
+  std::uint64_t sizeAge_ = 0;
+
+  std::shared_ptr<const Snapshot> snapshot_;
+  bool stored_ = false;
+  std::optional<OverlayPicture> overlay_;
+  ViewerState overlayState_;           ///< what the newest request asked for
+  std::uint64_t overlayPasses_ = 0;    ///< of the snapshot at that request
+  bool overlayDrawn_ = false;
+  std::string problem_;
+  std::future<std::shared_ptr<const Scene>> loading_;
+  std::filesystem::path loadingFile_;
+  OverlaySource overlays_;
+  RenderSession session_;  ///< last: its threads stop before anything that they call goes
+};
+
+}  // namespace cellcut

@@ -1,0 +1,36 @@
+/// \file viewer_state.h
+/// What a person can set: panels edit a copy, the viewer applies it.
+#pragma once
+
+#include "renderer/trace/session_input.h"
+#include "ui/image_view.h"
+#include "ui/overlays/color_scale.h"
+#include "ui/overlays/overlay.h"
+#include "ui/viewer/camera_control.h"
+
+#include <optional>
+
+namespace cellcut {
+
+struct OverlayChoice {
+  Overlay overlay = Overlay::kNone;
+  ScaleSettings scale;
+  float opacity = 0.7f;  ///< [0, 1]
+  bool grid = false;     ///< wireframe of the touched cells
+};
+
+struct ViewerState {
+  RenderSettings settings;  ///< width and height follow the window
+  std::optional<std::uint64_t> passLimit;
+  std::optional<double> timeLimit;   ///< seconds
+  std::optional<double> noiseLimit;  ///< √relMSE
+  bool paused = false;
+  ImageViewSettings display;
+  OverlayChoice overlay;
+  std::optional<glm::ivec2> pick;  ///< image pixel whose cell is inspected
+  std::optional<std::size_t> hoveredCluster;  ///< row of the inspector under the pointer
+  bool showUi = true;
+  bool showHelp = false;
+};
+
+}  // namespace cellcut
