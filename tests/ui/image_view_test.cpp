@@ -68,16 +68,49 @@ TEST(ImageView, AnOddMagnificationShowsEveryPixelWhereItsPlacementSays) {
     }
 }
 
-TEST(ImageView, ShrunkPixelsAreMixed) {
-  ImageRgb stripes(8, 8);
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x) stripes.at(x, y) = Vec3(static_cast<float>(x % 2));
+/// White on every second column.
+ImageRgb stripes(int size) {
+  ImageRgb image(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) image.at(x, y) = Vec3(static_cast<float>(x % 2));
+  return image;
+}
+
+TEST(ImageView, AShrunkPixelIsTheMeanOverItsArea) {
   Canvas canvas({4, 4});
   ImageView view;
-  view.setImage(ImageSlot::kA, stripes);
-  const ImageRgba8 picture = canvas.draw(view, {Vec2(0), 0.5f}, kPlain);
-  for (const Rgba8& pixel : picture)
-    EXPECT_NEAR(pixel.r, quantised(linearToSrgb(0.5f)), 1);  // filter weights of 8 bits
+  view.setImage(ImageSlot::kA, stripes(8));
+  const ImageRgba8 half = canvas.draw(view, {Vec2(0), 0.5f}, kPlain);
+  for (const Rgba8& pixel : half) EXPECT_EQ(pixel, Rgba8(Vec3(188), 255));  // 0.5, encoded: 187.5
+  // Two thirds: the first pixel covers columns 0 and half of 1, the second half of 1 and all of 2.
+  view.setImage(ImageSlot::kA, stripes(6));
+  const ImageRgba8 thirds = canvas.draw(view, {Vec2(0), 2 / 3.0f}, kPlain);
+  const auto third = quantised(linearToSrgb(1 / 3.0f));
+  const auto twoThirds = quantised(linearToSrgb(2 / 3.0f));
+  const int expected[] = {third, third, twoThirds, twoThirds};
+  for (int x = 0; x < 4; ++x) EXPECT_NEAR(thirds.at(x, 2).r, expected[x], 1) << x;
+}
+
+TEST(ImageView, AMuchShrunkPictureKeepsItsBrightness) {
+  Canvas canvas({64, 64});
+  ImageView view;
+  view.setImage(ImageSlot::kA, ImageRgb(2048, 2048, Vec3(1)));
+  const ImageRgba8 picture = canvas.draw(view, {Vec2(0), 1 / 64.0f}, kPlain);
+  EXPECT_EQ(picture.at(31, 31), Rgba8(255));
+  EXPECT_EQ(picture.at(32, 31), kBlack);
+}
+
+TEST(ImageView, AShrunkOverlayDoesNotMixTheColorOfWhatIsTransparent) {
+  Canvas canvas({1, 1});
+  ImageView view;
+  view.setImage(ImageSlot::kA, ImageRgb(2, 1, Vec3(0)));
+  ImageRgba8 overlay(2, 1);
+  overlay[0] = Rgba8(200, 0, 0, 255);
+  overlay[1] = Rgba8(0, 255, 0, 0);
+  view.setOverlay(overlay);
+  const Rgba8 pixel = canvas.draw(view, {Vec2(0, 0.25f), 0.5f}, kPlain).at(0, 0);
+  EXPECT_NEAR(pixel.r, 100, 1);
+  EXPECT_EQ(pixel.g, 0);
 }
 
 TEST(ImageView, ClipsToItsRectangle) {

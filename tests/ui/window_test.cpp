@@ -118,7 +118,7 @@ TEST(Window, TwoWindowsKeepTheirOwn) {
 TEST(Window, ResizesFromOnePixelTo4K) {
   Canvas canvas({64, 64});
   ImageView view;
-  view.setImage(ImageSlot::kA, ImageRgb(2, 1, Vec3(1)));
+  view.setImage(ImageSlot::kA, ImageRgb(1, 1, Vec3(1)));
   for (const PixelSize size : {PixelSize{1, 1}, PixelSize{3840, 2160}, PixelSize{2, 999}}) {
     canvas.window->resize(size);
     ASSERT_EQ(canvas.window->framebufferSize(), size);
@@ -163,11 +163,11 @@ TEST(GlProgram, SaysWhatTheCompilerSays) {
     EXPECT_THAT(error.what(), HasSubstr("nonsense"));
   }
   try {
-    GlProgram::fromText("apart", vertex,
-                        "#version 330 core\nin vec3 missing;\nout vec4 c;\nvoid main() { c = missing.xyzz; }\n");
+    GlProgram::fromText("apart", "#version 330 core\nout vec2 both;\nvoid main() { gl_Position = vec4(both, 0, 1); }\n",
+                        "#version 330 core\nin vec3 both;\nout vec4 c;\nvoid main() { c = vec4(both, 1); }\n");
     FAIL() << "linked";
   } catch (const GlError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("missing"));
+    EXPECT_THAT(error.what(), HasSubstr("both"));
   }
 }
 
