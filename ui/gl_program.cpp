@@ -57,11 +57,19 @@ GlProgram GlProgram::fromText(std::string_view name, std::string_view vertexText
       link(name, compile(GL_VERTEX_SHADER, name, vertexText), compile(GL_FRAGMENT_SHADER, name, fragmentText)));
 }
 
-void GlProgram::use() const { glUseProgram(handle_.name()); }
+void GlProgram::use() const {
+  glUseProgram(handle_.name());
+}
 
-void GlProgram::set(const char* uniform, int value) const { glUniform1i(location(uniform), value); }
-void GlProgram::set(const char* uniform, float value) const { glUniform1f(location(uniform), value); }
-void GlProgram::set(const char* uniform, const Vec2& value) const { glUniform2f(location(uniform), value.x, value.y); }
+void GlProgram::set(const char* uniform, int value) const {
+  glUniform1i(location(uniform), value);
+}
+void GlProgram::set(const char* uniform, float value) const {
+  glUniform1f(location(uniform), value);
+}
+void GlProgram::set(const char* uniform, const Vec2& value) const {
+  glUniform2f(location(uniform), value.x, value.y);
+}
 void GlProgram::set(const char* uniform, const Vec3& value) const {
   glUniform3f(location(uniform), value.x, value.y, value.z);
 }
@@ -72,6 +80,8 @@ void GlProgram::set(const char* uniform, const glm::mat4& value) const {
   glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
-int GlProgram::location(const char* uniform) const { return glGetUniformLocation(handle_.name(), uniform); }
+int GlProgram::location(const char* uniform) const {
+  return glGetUniformLocation(handle_.name(), uniform);
+}
 
 }  // namespace cellcut

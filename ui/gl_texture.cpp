@@ -43,7 +43,9 @@ void GlTexture::upload(const ImageRgba8& image) {
   store({image.width(), image.height()}, Format::kRgba8, image.data());
 }
 
-void GlTexture::allocate(PixelSize size) { store(size, Format::kRgba8, nullptr); }
+void GlTexture::allocate(PixelSize size) {
+  store(size, Format::kRgba8, nullptr);
+}
 
 void GlTexture::bind(int unit) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));

@@ -10,7 +10,7 @@
 
 namespace cellcut {
 
-/// A two-dimensional texture without mip levels, edges clamped, magnified as squares, shrunk linearly.
+/// A two-dimensional texture without mip levels, edges clamped, magnified as squares.
 class GlTexture {
  public:
   GlTexture() = default;

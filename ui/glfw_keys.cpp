@@ -48,7 +48,9 @@ constexpr std::pair<int, Key> kKeys[] = {{GLFW_KEY_TAB, Key::kTab},
                                          {GLFW_KEY_LEFT_SUPER, Key::kLeftSuper},
                                          {GLFW_KEY_RIGHT_SUPER, Key::kRightSuper}};
 
-Key offset(Key first, int count) { return static_cast<Key>(static_cast<int>(first) + count); }
+Key offset(Key first, int count) {
+  return static_cast<Key>(static_cast<int>(first) + count);
+}
 
 }  // namespace
 

@@ -11,7 +11,9 @@ namespace cellcut {
 
 namespace {
 
-std::size_t indexOf(ImageSlot slot) { return static_cast<std::size_t>(slot); }
+std::size_t indexOf(ImageSlot slot) {
+  return static_cast<std::size_t>(slot);
+}
 
 /// The whole pixels of `rect` that the framebuffer has. OpenGL counts rows from below.
 void setScissor(PixelSize framebuffer, const PixelRect& rect) {
@@ -53,10 +55,16 @@ void ImageView::setImage(ImageSlot slot, const ImageRgb& image) {
   setImage(slot, {image.width(), image.height()}, std::span(image.data(), image.size()));
 }
 
-void ImageView::clearImage(ImageSlot slot) { images_[indexOf(slot)] = GlTexture(); }
+void ImageView::clearImage(ImageSlot slot) {
+  images_[indexOf(slot)] = GlTexture();
+}
 
-void ImageView::setOverlay(const ImageRgba8& overlay) { overlay_.upload(overlay); }
-void ImageView::clearOverlay() { overlay_ = GlTexture(); }
+void ImageView::setOverlay(const ImageRgba8& overlay) {
+  overlay_.upload(overlay);
+}
+void ImageView::clearOverlay() {
+  overlay_ = GlTexture();
+}
 
 void ImageView::draw(PixelSize framebuffer, const PixelRect& clip, const ImagePlacement& placement,
                      const ImageViewSettings& settings) const {

@@ -60,7 +60,7 @@ class ImageView {
   PixelSize imageSize() const { return images_[0].size(); }
 
   /// Draws into the bound framebuffer of that size: the picture within `clip`, nothing beside it. From 1:1 up each
-  /// pixel is a square, below it is filtered linearly. Nothing while A is empty.
+  /// pixel is a square, below it is a mean over its area. Nothing while A is empty.
   void draw(PixelSize framebuffer, const PixelRect& clip, const ImagePlacement& placement,
             const ImageViewSettings& settings) const;
 

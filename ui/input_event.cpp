@@ -36,7 +36,9 @@ bool equalIgnoringCase(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string_view keyName(Key key) { return kNames[static_cast<std::size_t>(key)]; }
+std::string_view keyName(Key key) {
+  return kNames[static_cast<std::size_t>(key)];
+}
 
 std::optional<Key> keyFromName(std::string_view name) {
   for (std::size_t i = 0; i < kNames.size(); ++i)

@@ -84,7 +84,9 @@ class Run {
 
 }  // namespace
 
-void InputQueue::push(std::span<const InputEvent> events) { events_.insert(events_.end(), events.begin(), events.end()); }
+void InputQueue::push(std::span<const InputEvent> events) {
+  events_.insert(events_.end(), events.begin(), events.end());
+}
 
 std::vector<InputEvent> InputQueue::takeFrame() {
   std::vector<InputEvent> frame;

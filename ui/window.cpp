@@ -19,10 +19,18 @@ std::string_view windowKindName(WindowKind kind) {
   return {};
 }
 
-std::vector<InputEvent> Window::takeEvents() { return std::exchange(events_, {}); }
-std::vector<std::filesystem::path> Window::takeDroppedFiles() { return std::exchange(droppedFiles_, {}); }
-void Window::post(const InputEvent& event) { events_.push_back(event); }
-void Window::postDrop(std::filesystem::path file) { droppedFiles_.push_back(std::move(file)); }
+std::vector<InputEvent> Window::takeEvents() {
+  return std::exchange(events_, {});
+}
+std::vector<std::filesystem::path> Window::takeDroppedFiles() {
+  return std::exchange(droppedFiles_, {});
+}
+void Window::post(const InputEvent& event) {
+  events_.push_back(event);
+}
+void Window::postDrop(std::filesystem::path file) {
+  droppedFiles_.push_back(std::move(file));
+}
 
 std::unique_ptr<Window> openWindow(WindowKind kind, const WindowSettings& settings) {
   switch (kind) {

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cstdio>
+#include <dlfcn.h>
 #include <vector>
 
-#include <dlfcn.h>
 #include <epoxy/egl.h>
 
 namespace cellcut {
@@ -56,13 +56,9 @@ class EglWindow final : public MemoryWindow {
     EGLint count = 0;
     if (!eglChooseConfig(display_, kConfig.data(), &config, 1, &count) || count == 0)
       throw GlError(eglErrorText("eglChooseConfig"));
-    constexpr std::array<EGLint, 7> kVersion{EGL_CONTEXT_MAJOR_VERSION,
-                                             3,
-                                             EGL_CONTEXT_MINOR_VERSION,
-                                             3,
-                                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                             EGL_NONE};
+    constexpr std::array<EGLint, 7> kVersion{
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, kVersion.data());
     if (context_ == EGL_NO_CONTEXT) throw GlError(eglErrorText("eglCreateContext"));
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
@@ -74,8 +70,7 @@ class EglWindow final : public MemoryWindow {
 
   // The display stays initialised: EGL hands the same one to everybody in the process, other windows included.
   ~EglWindow() override {
-    if (eglGetCurrentContext() == context_)
-      eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
   }
 

@@ -130,9 +130,7 @@ class GlfwWindow final : public Window {
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int /*modifiers*/) {
       if (const auto known = buttonFromGlfw(button)) of(window).post(MouseButtonChange{*known, action == GLFW_PRESS});
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
-      of(window).post(Scroll{Vec2(x, y)});
-    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) { of(window).post(Scroll{Vec2(x, y)}); });
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int /*scancode*/, int action, int /*modifiers*/) {
       if (action == GLFW_REPEAT) return;
       if (const auto known = keyFromGlfw(key)) of(window).post(KeyChange{*known, action == GLFW_PRESS});
@@ -140,9 +138,8 @@ class GlfwWindow final : public Window {
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
       of(window).post(TextInput{static_cast<char32_t>(character)});
     });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
-      of(window).post(FocusChange{focused == GLFW_TRUE});
-    });
+    glfwSetWindowFocusCallback(
+        window_, [](GLFWwindow* window, int focused) { of(window).post(FocusChange{focused == GLFW_TRUE}); });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
       for (int i = 0; i < count; ++i) of(window).postDrop(files[i]);
     });

@@ -1,23 +1,30 @@
 #include "ui/gl_error.h"
-#include "ui/window_kinds.h"
-
-#ifdef CELLCUT_OSMESA
-
 #include "ui/memory_window.h"
+#include "ui/window_kinds.h"
 
 #include <array>
 #include <cstdint>
+#include <dlfcn.h>
 #include <utility>
 #include <vector>
 
-#include <dlfcn.h>
-#include <epoxy/gl.h>  // before osmesa.h, whose GL/gl.h it replaces
-
-#include <GL/osmesa.h>
+#include <epoxy/gl.h>
 
 namespace cellcut {
 
 namespace {
+
+// From Mesa's GL/osmesa.h, whose GL/gl.h cannot stand beside epoxy's.
+using OsmesaContext = struct osmesa_context*;
+using CreateContextAttribs = OsmesaContext(const int* attributes, OsmesaContext shared);
+using MakeCurrent = GLboolean(OsmesaContext context, void* picture, GLenum type, GLsizei width, GLsizei height);
+using DestroyContext = void(OsmesaContext context);
+using GetProcAddress = void (*(const char* name))();
+constexpr int kFormat = 0x22;
+constexpr int kProfile = 0x33;
+constexpr int kCoreProfile = 0x34;
+constexpr int kMajorVersion = 0x36;
+constexpr int kMinorVersion = 0x37;
 
 /// Names of OpenGL's functions, those of vendors left out.
 constexpr const char* kGlFunctions[] = {
@@ -53,7 +60,7 @@ class OsmesaLibrary {
 class EpoxyRedirection {
  public:
   explicit EpoxyRedirection(const OsmesaLibrary& library) {
-    const auto getProcAddress = library.find<decltype(OSMesaGetProcAddress)>("OSMesaGetProcAddress");
+    const auto getProcAddress = library.find<GetProcAddress>("OSMesaGetProcAddress");
     for (const char* const name : kGlFunctions) {
       auto* const slot = static_cast<void**>(dlsym(RTLD_DEFAULT, ("epoxy_" + std::string(name)).c_str()));
       const auto function = reinterpret_cast<void*>(getProcAddress(name));
@@ -77,18 +84,11 @@ class OsmesaWindow final : public MemoryWindow {
  public:
   explicit OsmesaWindow(PixelSize size)
       : MemoryWindow(size),
-        makeContextCurrent_(library_.find<decltype(OSMesaMakeCurrent)>("OSMesaMakeCurrent")),
-        destroyContext_(library_.find<decltype(OSMesaDestroyContext)>("OSMesaDestroyContext")) {
-    constexpr std::array<int, 9> kAttributes{OSMESA_FORMAT,
-                                             OSMESA_RGBA,
-                                             OSMESA_PROFILE,
-                                             OSMESA_CORE_PROFILE,
-                                             OSMESA_CONTEXT_MAJOR_VERSION,
-                                             3,
-                                             OSMESA_CONTEXT_MINOR_VERSION,
-                                             3,
-                                             0};
-    const auto create = library_.find<decltype(OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
+        makeContextCurrent_(library_.find<MakeCurrent>("OSMesaMakeCurrent")),
+        destroyContext_(library_.find<DestroyContext>("OSMesaDestroyContext")) {
+    constexpr std::array<int, 9> kAttributes{kFormat,       GL_RGBA, kProfile, kCoreProfile, kMajorVersion, 3,
+                                             kMinorVersion, 3,       0};
+    const auto create = library_.find<CreateContextAttribs>("OSMesaCreateContextAttribs");
     context_ = create(kAttributes.data(), nullptr);
     if (context_ == nullptr) throw GlError("OSMesa: has no OpenGL 3.3 core");
     if (!isMadeCurrent()) {
@@ -118,9 +118,9 @@ class OsmesaWindow final : public MemoryWindow {
 
   OsmesaLibrary library_;
   EpoxyRedirection redirection_{library_};
-  decltype(OSMesaMakeCurrent)* makeContextCurrent_;
-  decltype(OSMesaDestroyContext)* destroyContext_;
-  OSMesaContext context_ = nullptr;
+  MakeCurrent* makeContextCurrent_;
+  DestroyContext* destroyContext_;
+  OsmesaContext context_ = nullptr;
 };
 
 }  // namespace
@@ -130,15 +130,3 @@ std::unique_ptr<Window> openOsmesaWindow(const WindowSettings& settings) {
 }
 
 }  // namespace cellcut
-
-#else
-
-namespace cellcut {
-
-std::unique_ptr<Window> openOsmesaWindow(const WindowSettings& /*settings*/) {
-  throw GlError("OSMesa: this program was built without it (Debian: libosmesa6-dev, then configure again)");
-}
-
-}  // namespace cellcut
-
-#endif

@@ -37,11 +37,31 @@ float encode(float c) {
   return clamp(c <= 0.0031308 ? c * 12.92 : 1.055 * pow(c, 1.0 / 2.4) - 0.055, 0.0, 1.0);
 }
 
-// At and above 1:1 the pixel itself; below, a filtered one. `at` is in [0, 1]² over the picture.
-vec4 fetch(sampler2D image, vec2 at) {
-  vec2 size = vec2(textureSize(image, 0));
-  if (scale >= 1.0) return texelFetch(image, ivec2(clamp(floor(at * size), vec2(0.0), size - 1.0)), 0);
-  return textureLod(image, at, 0.0);
+// At and above 1:1 the texel at `at`, in [0, 1]² over the picture; below, the mean over the area that the framebuffer's
+// pixel covers, of at most about eight texels each way.
+vec4 fetch(sampler2D image, vec2 at, bool premultiply) {
+  ivec2 size = textureSize(image, 0);
+  vec2 centre = at * vec2(size);
+  if (scale >= 1.0) {
+    vec4 texel = texelFetch(image, clamp(ivec2(floor(centre)), ivec2(0), size - 1), 0);
+    return premultiply ? vec4(texel.rgb * texel.a, texel.a) : texel;
+  }
+  vec2 width = vec2(size) / (scale * imageSize);
+  vec2 lower = max(centre - 0.5 * width, vec2(0.0));
+  vec2 upper = min(centre + 0.5 * width, vec2(size));
+  ivec2 stride = ivec2(ceil(width / 8.0));
+  vec4 sum = vec4(0.0);
+  float area = 0.0;
+  for (int y = int(lower.y); float(y) < upper.y; y += stride.y) {
+    float height = min(upper.y, float(y + 1)) - max(lower.y, float(y));
+    for (int x = int(lower.x); float(x) < upper.x; x += stride.x) {
+      vec4 texel = texelFetch(image, ivec2(x, y), 0);
+      float weight = height * (min(upper.x, float(x + 1)) - max(lower.x, float(x)));
+      sum += weight * (premultiply ? vec4(texel.rgb * texel.a, texel.a) : texel);
+      area += weight;
+    }
+  }
+  return sum / area;
 }
 
 vec3 selectChannel(vec3 c) {
@@ -55,11 +75,12 @@ void main() {
   vec2 at = (position - origin) / (scale * imageSize);
   if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)))) discard;
 
-  vec3 linear = gain * selectChannel((at.x < split ? fetch(imageA, at) : fetch(imageB, at)).rgb);
+  vec4 texel = at.x < split ? fetch(imageA, at, false) : fetch(imageB, at, false);
+  vec3 linear = gain * selectChannel(texel.rgb);
   vec3 clamped = vec3(clampChannel(linear.r), clampChannel(linear.g), clampChannel(linear.b));
   vec3 mapped = toneMapped != 0 ? compress(clamped) : clamped;
   vec3 display = vec3(encode(mapped.r), encode(mapped.g), encode(mapped.b));
 
-  vec4 over = overlayOpacity > 0.0 ? fetch(overlay, at) : vec4(0.0);
-  shown = vec4(mix(display, over.rgb, over.a * overlayOpacity), 1.0);
+  vec4 over = overlayOpacity > 0.0 ? overlayOpacity * fetch(overlay, at, true) : vec4(0.0);
+  shown = vec4(display * (1.0 - over.a) + over.rgb, 1.0);
 }
