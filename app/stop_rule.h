@@ -2,6 +2,8 @@
 /// When a rendering is done.
 #pragma once
 
+#include "renderer/trace/render_settings.h"
+
 #include <cstdint>
 
 namespace cellcut {
@@ -21,10 +23,6 @@ struct RenderState {
   double seconds = 0;        ///< since the first pass began
   double relativeError = 0;  ///< Film::relativeError(); only looked at where needsNoise() says so
 };
-
-/// Passes before the noise is looked at: from a few samples the variance is mostly unknown, and the bright rare paths
-/// that make up the error have not been met.
-inline constexpr std::uint64_t kMinNoisePasses = 16;
 
 /// Whether the rule wants RenderState::relativeError after `passes` passes.
 bool needsNoise(const StopRule& rule, std::uint64_t passes);

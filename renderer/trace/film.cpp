@@ -33,45 +33,57 @@ void Film::record(int x, int y, const PathSample& sample) {
 }
 
 void Film::commit() {
-  ++passes_;
-  const auto n = static_cast<double>(passes_);
-  std::atomic<std::uint64_t> nan{0}, inf{0};
-  tbb::parallel_for(0, height(), [&](int y) {
-    for (int x = 0; x < width(); ++x) {
-      Vec3 radiance = pendingRadiance_.at(x, y);
-      if (!isFinite(radiance)) {
-        const bool isNan = std::isnan(radiance.x) || std::isnan(radiance.y) || std::isnan(radiance.z);
-        (isNan ? nan : inf).fetch_add(1, std::memory_order_relaxed);
-        radiance = Vec3(0);
-      }
-      Sums& sums = sums_.at(x, y);
-      const DVec3 before = DVec3(radiance) - sums.mean;
-      sums.mean += before / n;
-      sums.squares += before * (DVec3(radiance) - sums.mean);
-      if (!auxiliary_.empty()) {
-        Auxiliary& auxiliary = auxiliary_.at(x, y);
-        const PendingAuxiliary& pending = pendingAuxiliary_.at(x, y);
-        auxiliary.albedo += (DVec3(pending.albedo) - auxiliary.albedo) / n;
-        auxiliary.normal += (DVec3(pending.normal) - auxiliary.normal) / n;
-        auxiliary.depth += (static_cast<double>(pending.depth) - auxiliary.depth) / n;
-      }
+  tbb::parallel_for(0, height(), [&](int y) { commitRow(y); });
+  finishCommit();
+}
+
+void Film::commitRow(int y) {
+  const auto n = static_cast<double>(passes_ + 1);
+  const bool first = passes_ == 0;  // what lies there may be from before clear()
+  for (int x = 0; x < width(); ++x) {
+    Vec3 radiance = pendingRadiance_.at(x, y);
+    if (!isFinite(radiance)) {
+      const bool isNan = std::isnan(radiance.x) || std::isnan(radiance.y) || std::isnan(radiance.z);
+      std::atomic_ref(isNan ? bad_.nan : bad_.inf).fetch_add(1, std::memory_order_relaxed);
+      radiance = Vec3(0);
     }
-  });
-  bad_.nan += nan;
-  bad_.inf += inf;
+    Sums& sums = sums_.at(x, y);
+    if (first) sums = {};
+    const DVec3 before = DVec3(radiance) - sums.mean;
+    sums.mean += before / n;
+    sums.squares += before * (DVec3(radiance) - sums.mean);
+    if (!auxiliary_.empty()) {
+      Auxiliary& auxiliary = auxiliary_.at(x, y);
+      if (first) auxiliary = {};
+      const PendingAuxiliary& pending = pendingAuxiliary_.at(x, y);
+      auxiliary.albedo += (DVec3(pending.albedo) - auxiliary.albedo) / n;
+      auxiliary.normal += (DVec3(pending.normal) - auxiliary.normal) / n;
+      auxiliary.depth += (static_cast<double>(pending.depth) - auxiliary.depth) / n;
+    }
+  }
+}
+
+void Film::clear() {
+  passes_ = 0;
+  bad_ = {};
 }
 
 ImageRgb Film::mean() const {
   ImageRgb image(width(), height());
+  if (passes_ == 0) return image;
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = Vec3(sums_[i].mean);
   return image;
+}
+
+DVec3 Film::errorOf(const Sums& sums) const {
+  const auto n = static_cast<double>(passes_);
+  return glm::sqrt(sums.squares / (n * (n - 1)));
 }
 
 Image<glm::dvec3> Film::errors() const {
   Image<DVec3> image(width(), height());
   if (passes_ < 2) return image;
-  const auto n = static_cast<double>(passes_);
-  for (std::size_t i = 0; i < image.size(); ++i) image[i] = glm::sqrt(sums_[i].squares / (n * (n - 1)));
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = errorOf(sums_[i]);
   return image;
 }
 
@@ -84,15 +96,14 @@ ImageRgb Film::standardError() const {
 
 double Film::relativeError() const {
   if (passes_ < 2) return std::numeric_limits<double>::infinity();
-  const Image<DVec3> errors = this->errors();
   double mean = 0;
   for (const Sums& sums : sums_) mean += (sums.mean.x + sums.mean.y + sums.mean.z) / 3;
   mean /= static_cast<double>(sums_.size());
   if (mean == 0) return 0;
   // In units of the picture's mean, so that squares neither overflow nor vanish.
   double sum = 0;
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const DVec3 error = errors[i] / mean, value = sums_[i].mean / mean;
+  for (const Sums& sums : sums_) {
+    const DVec3 error = errorOf(sums) / mean, value = sums.mean / mean;
     for (int c = 0; c < 3; ++c) sum += error[c] * error[c] / (value[c] * value[c] + 0.01);
   }
   return std::sqrt(sum / (3 * static_cast<double>(sums_.size())));
@@ -104,7 +115,9 @@ std::size_t Film::bytes() const {
 
 LayeredImage Film::layers() const {
   Image<DVec3> means(width(), height());
-  for (std::size_t i = 0; i < means.size(); ++i) means[i] = sums_[i].mean;
+  if (passes_ > 0) {
+    for (std::size_t i = 0; i < means.size(); ++i) means[i] = sums_[i].mean;
+  }
   LayeredImage image{width(), height(), {}, {}};
   image.layers.push_back({"", {"R", "G", "B"}, interleaved(means)});
   if (!auxiliary_.empty()) {

@@ -3,7 +3,8 @@
 ///
 /// A pass writes one sample per pixel into a buffer of its own (record) and is then added as a whole (commit) or
 /// forgotten, so that a pass that was interrupted leaves no trace. Sums are in double: after 10⁸ samples a pixel is
-/// right to 10⁻⁶. Threads: record() may run concurrently for different pixels; everything else by one thread at a time.
+/// right to 10⁻⁶. Threads: record() may run concurrently for different pixels, commitRow() for different rows; const
+/// members may run beside record(); everything else by one thread at a time.
 #pragma once
 
 #include "renderer/base/image.h"
@@ -40,6 +41,12 @@ class Film {
   void record(int x, int y, const PathSample& sample);
   /// Adds the recorded pass, on the calling thread's TBB arena.
   void commit();
+  /// The same for threads of the caller's: commitRow() once for each row, concurrently for different ones, and then
+  /// finishCommit().
+  void commitRow(int y);
+  void finishCommit() { ++passes_; }
+  /// Forgets all passes. Takes no time: the next commit overwrites.
+  void clear();
 
   /// Mean radiance; black before the first pass.
   ImageRgb mean() const;
@@ -74,6 +81,8 @@ class Film {
     float depth;
   };
   Image<glm::dvec3> errors() const;
+  /// Of the mean, per channel. \pre passes() ≥ 2
+  glm::dvec3 errorOf(const Sums& sums) const;
 
   Image<Sums> sums_;
   Image<Auxiliary> auxiliary_;  ///< empty unless asked for

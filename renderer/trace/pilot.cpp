@@ -10,8 +10,6 @@ namespace {
 
 /// Enough paths for 5 % quantiles to be sharp, few enough to take about a millisecond.
 constexpr glm::ivec2 kSize(64, 36);
-/// Later vertices lie where the first ones do.
-constexpr int kMaxVertices = 3;
 
 }  // namespace
 
@@ -21,7 +19,7 @@ std::vector<Vec3> pilotVertices(const Scene& scene, const Accel& accel, const Ca
     for (int x = 0; x < kSize.x; ++x) {
       PixelSampler random(PixelSampling::kIndependent, 0, x, y, 0);
       Ray ray = cameraRay(camera, Vec2(x, y) + Vec2(0.5f), kSize);
-      for (int depth = 0; depth < std::min(maxDepth, kMaxVertices); ++depth) {
+      for (int depth = 0; depth < std::min(maxDepth, kPilotDepth); ++depth) {
         const Sample4 numbers = random.next();
         const std::optional<Hit> hit = accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
         if (!hit) break;

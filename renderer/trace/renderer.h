@@ -1,38 +1,17 @@
 /// \file renderer.h
-/// A scene and settings → passes over a film. The whole of a headless rendering but for files and clocks.
+/// A scene and settings → passes over a film. The whole of a headless rendering but for files and clocks. What people
+/// change while they look at it: session.h.
 #pragma once
 
-#include "renderer/base/pixel_sampler.h"
 #include "renderer/lights/lights.h"
-#include "renderer/sampling/sampler_settings.h"
-#include "renderer/sampling/strategy.h"
-#include "renderer/scene/scene.h"
 #include "renderer/trace/film.h"
+#include "renderer/trace/render_settings.h"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
 
 namespace cellcut {
-
-struct RenderSettings {
-  int width = 1280;
-  int height = 720;
-  int maxDepth = 8;  ///< path vertices that scatter: 1 is direct light only; ≥ 0
-  Strategy strategy = Strategy::kCellCut;
-  SamplerSettings sampler;
-  PixelSampling sampling = PixelSampling::kSobol;
-  std::uint64_t seed = 0;
-  int threads = 0;         ///< 0: one per hardware thread
-  std::size_t camera = 0;  ///< index into Scene::cameras
-  bool auxiliary = true;   ///< albedo, normal and depth layers
-};
-
-struct RayCounts {
-  std::uint64_t camera = 0;
-  std::uint64_t bounce = 0;
-  std::uint64_t shadow = 0;
-};
 
 /// Bytes; what the process holds at most is the operating system's to say.
 struct MemoryUse {

@@ -1,0 +1,94 @@
+#include "renderer/trace/live_picture.h"
+
+#include "renderer/base/error.h"
+#include "renderer/trace/worker_pool.h"
+
+#include <tuple>
+
+namespace cellcut {
+namespace {
+
+/// Of threads that build: after the UI, before the workers.
+constexpr int kBuildNiceness = 10;
+
+void check(const SessionInput& input) {
+  if (!input.scene) throw InputError("scene", "there is none; open one");
+  const std::size_t cameras = input.scene->cameras.size();
+  if (input.settings.camera >= cameras) {
+    throw InputError("camera " + std::to_string(input.settings.camera),
+                     "the scene has " + std::to_string(cameras) + "; choose one of these");
+  }
+}
+
+bool isSameView(const Camera& a, const Camera& b) {
+  // The bindings stop to compile when a member is added. The name is no part of the picture.
+  const auto& [name, orthographic, position, right, up, back, halfHeight] = a;
+  return std::tie(orthographic, position, right, up, back, halfHeight) ==
+         std::tie(b.orthographic, b.position, b.right, b.up, b.back, b.halfHeight);
+}
+
+bool haveSameFilm(const RenderSettings& a, const RenderSettings& b) {
+  return std::tie(a.width, a.height, a.auxiliary) == std::tie(b.width, b.height, b.auxiliary);
+}
+
+/// With the same scene, sampler and film.
+bool haveSamePaths(const Scene& scene, const RenderSettings& a, const RenderSettings& b) {
+  return std::tie(a.maxDepth, a.sampling, a.seed) == std::tie(b.maxDepth, b.sampling, b.seed) &&
+         isSameView(viewOf(scene, a), viewOf(scene, b));
+}
+
+}  // namespace
+
+LivePicture::Niceness::Niceness(tbb::task_arena& arena) : task_scheduler_observer(arena) {
+  observe(true);
+}
+
+LivePicture::Niceness::~Niceness() {
+  observe(false);
+}
+
+void LivePicture::Niceness::on_scheduler_entry(bool) {
+  setThreadNiceness(kBuildNiceness);
+}
+
+LivePicture::LivePicture() : niceness_(arena_) {}
+
+bool LivePicture::apply(SessionInput input) {
+  check(input);
+  const bool newScene = !exists() || input.scene != input_.scene;
+  const bool newSampler = newScene || !haveSameSampler(input.settings, input_.settings);
+  const bool newFilm = !exists() || !haveSameFilm(input.settings, input_.settings);
+  if (!newSampler && !newFilm && haveSamePaths(*input.scene, input.settings, input_.settings)) {
+    input_ = std::move(input);
+    return false;
+  }
+
+  std::unique_ptr<PreparedScene> prepared;
+  std::unique_ptr<LightSampler> sampler;
+  std::unique_ptr<Film> film;
+  if (newFilm) film = std::make_unique<Film>(input.settings.width, input.settings.height, input.settings.auxiliary);
+  if (newScene) prepared = execute([&] { return std::make_unique<PreparedScene>(*input.scene); });
+  const PreparedScene& scene = prepared ? *prepared : *prepared_;
+  if (newSampler) sampler = execute([&] { return makeLightSampler(scene, input.settings); });
+  auto passes =
+      std::make_unique<PassRenderer>(scene, sampler ? *sampler : *sampler_, input.settings, film ? *film : *film_);
+
+  // From here on nothing throws. Users go before what they use.
+  passes_ = std::move(passes);
+  if (film) film_ = std::move(film);
+  if (sampler) sampler_ = std::move(sampler);
+  if (prepared) prepared_ = std::move(prepared);
+  input_ = std::move(input);
+  film_->clear();
+  return true;
+}
+
+std::unique_ptr<PassRenderer> LivePicture::passesOver(Film& film) const {
+  return std::make_unique<PassRenderer>(*prepared_, *sampler_, input_.settings, film);
+}
+
+SessionView LivePicture::view(std::uint64_t generation) const {
+  return {generation, *input_.scene, input_.settings, prepared_->accel, prepared_->lights, *sampler_, *film_};
+}
+
+}  // namespace cellcut

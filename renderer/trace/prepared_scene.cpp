@@ -1,0 +1,33 @@
+#include "renderer/trace/prepared_scene.h"
+
+#include "renderer/trace/pilot.h"
+
+#include <tuple>
+
+namespace cellcut {
+namespace {
+
+bool isSame(const SamplerSettings& a, const SamplerSettings& b) {
+  // The bindings stop to compile when a parameter is added.
+  const auto& [threshold, maxCut, gridResolution, inCluster, cellMemory] = a;
+  return std::tie(threshold, maxCut, gridResolution, inCluster, cellMemory) ==
+         std::tie(b.threshold, b.maxCut, b.gridResolution, b.inCluster, b.cellMemory);
+}
+
+}  // namespace
+
+std::unique_ptr<LightSampler> makeLightSampler(const PreparedScene& prepared, const RenderSettings& settings) {
+  const Scene& scene = prepared.scene;
+  return makeLightSampler(settings.strategy, prepared.lights, settings.sampler,
+                          pilotVertices(scene, prepared.accel, scene.cameras[settings.camera], settings.maxDepth));
+}
+
+bool haveSameSampler(const RenderSettings& a, const RenderSettings& b) {
+  if (a.strategy != b.strategy) return false;
+  if (a.strategy != Strategy::kCellCut && a.strategy != Strategy::kPointCut) return true;
+  if (!isSame(a.sampler, b.sampler)) return false;
+  if (a.strategy == Strategy::kPointCut) return true;
+  return a.camera == b.camera && std::min(a.maxDepth, kPilotDepth) == std::min(b.maxDepth, kPilotDepth);
+}
+
+}  // namespace cellcut
