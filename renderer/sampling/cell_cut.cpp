@@ -33,11 +33,9 @@ CellCutSampler::CellCutSampler(const Lights& lights, const SamplerSettings& sett
       grid_(centralBox(pilot), settings.gridResolution),
       cells_(settings.cellMemory) {}
 
-Cut CellCutSampler::makeCut(const Region& region) const {
+Cut CellCutSampler::makeCutTimed(const Region& region) const {
   const Stopwatch stopwatch(makeNanoseconds_);
-  std::vector<Cluster> clusters;
-  findCut(trees_, region, {settings_.threshold, settings_.maxCut}, clusters);
-  return Cut(trees_, region, clusters);
+  return makeCut(trees_, region, {settings_.threshold, settings_.maxCut});
 }
 
 FarChoice CellCutSampler::makeFarChoice(const Cut& cut, std::size_t facing) const {
@@ -51,12 +49,12 @@ auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
   // Past the range of cells every point is a cell of its own.
   const std::size_t facing = facingOf(point.n);
   const auto useOwn = [&](const Region& region) {
-    const Cut own = makeCut(region);
+    const Cut own = makeCutTimed(region);
     return use(own, makeFarChoice(own, facing));
   };
   if (!cell) return useOwn({point.p, 0});
   const Cut* cut = cells_.find(*cell);
-  if (!cut) cut = cells_.findOrMake(*cell, [&] { return makeCut(grid_.region(*cell)); });
+  if (!cut) cut = cells_.findOrMake(*cell, [&] { return makeCutTimed(grid_.region(*cell)); });
   if (!cut) return useOwn(grid_.region(*cell));
   if (cut->farCount() == 0) return use(*cut, FarChoice());
   if (const FarChoice* far = cut->farChoice(facing)) return use(*cut, *far);
@@ -67,6 +65,7 @@ auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
 
 std::optional<SampledLight> CellCutSampler::sample(const ShadingPoint& point, double u) const {
   return withCut(point, [&](const Cut& cut, const FarChoice& far) {
+    if (settings_.countVisits) cut.countVisit();
     return sampleCut(trees_, cut, far, settings_.inCluster, point, u);
   });
 }
@@ -99,6 +98,10 @@ SamplerStatistics CellCutSampler::statistics() const {
   s.grid = grid;
   s.cut = cut;
   return s;
+}
+
+std::optional<CutStrategy> CellCutSampler::cutStrategy() const {
+  return CutStrategy{&trees_, &grid_, &cells_, settings_};
 }
 
 std::unique_ptr<LightSampler> makeCellCutSampler(const Lights& lights, const SamplerSettings& settings,

@@ -19,18 +19,14 @@ class CellCutSampler final : public LightSampler {
   float pmf(const ShadingPoint& point, LightId light) const override;
   std::size_t bytes() const override;
   SamplerStatistics statistics() const override;
-
-  const LightTrees& trees() const { return trees_; }
-  const GridGeometry& grid() const { return grid_; }
-  /// The cut of the cell, if it was touched and kept.
-  const Cut* find(const CellCoordinates& cell) const { return cells_.find(cell); }
+  std::optional<CutStrategy> cutStrategy() const override;
 
  private:
   /// Calls `use` with the cut of the cell around a point and its choice among far clusters.
   template <class Use>
   auto withCut(const ShadingPoint& point, const Use& use) const;
   FarChoice makeFarChoice(const Cut& cut, std::size_t facing) const;
-  Cut makeCut(const Region& region) const;
+  Cut makeCutTimed(const Region& region) const;
 
   LightTrees trees_;
   SamplerSettings settings_;

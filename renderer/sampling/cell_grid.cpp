@@ -65,6 +65,13 @@ Region GridGeometry::region(const CellCoordinates& cell) const {
   return {rounded, static_cast<float>(0.5 * std::sqrt(3.0) * size_ + rounding) * (1 + gammaBound(4))};
 }
 
+Bounds GridGeometry::box(const CellCoordinates& cell) const {
+  const auto corner = [&](int step) {
+    return Vec3(origin_ + (glm::dvec3(cell.x, cell.y, cell.z) + static_cast<double>(step)) * size_);
+  };
+  return {corner(0), corner(1)};
+}
+
 Bounds centralBox(std::span<const Vec3> points) {
   Bounds box;
   if (points.empty()) return box;

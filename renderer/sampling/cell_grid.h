@@ -33,6 +33,8 @@ class GridGeometry {
   std::optional<CellCoordinates> cellOf(const Vec3& p) const;
   /// A sphere around all float points of a cell, rounding included.
   Region region(const CellCoordinates& cell) const;
+  /// The cube itself, its corners rounded to floats. Neighbours share their corners exactly.
+  Bounds box(const CellCoordinates& cell) const;
   double cellSize() const { return size_; }
   /// Cells that cover the box, per axis.
   glm::ivec3 resolution() const { return resolution_; }

@@ -59,10 +59,11 @@ inline bool estimateLocal(const LightTreeNode& node, const AnyRegion& region, Cl
 LightTrees::LightTrees(const Lights& lights)
     : LightTrees(lights, intensityExponent(lights), std::chrono::steady_clock::now()) {}
 
-LightTrees::LightTrees(const Lights& lights, int exponent, std::chrono::steady_clock::time_point start)
-    : local(localBounds(lights, exponent), LightId{0}, false),
-      distant(distantBounds(lights, exponent), lights.idOf(LightKind::kDirectional, 0), true),
+LightTrees::LightTrees(const Lights& lights, int exponentOfUnit, std::chrono::steady_clock::time_point start)
+    : local(localBounds(lights, exponentOfUnit), LightId{0}, false),
+      distant(distantBounds(lights, exponentOfUnit), lights.idOf(LightKind::kDirectional, 0), true),
       firstDistant(lights.idOf(LightKind::kDirectional, 0)),
+      exponent(exponentOfUnit),
       buildSeconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
 
 TreeStatistics LightTrees::statistics() const {
@@ -212,6 +213,12 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
     addMember(c);
   }
   if (!far_.empty()) choices_ = std::make_unique<std::atomic<const FarChoice*>[]>(kFacings);
+}
+
+Cut makeCut(const LightTrees& trees, const Region& region, const CutSettings& settings) {
+  std::vector<Cluster> clusters;
+  findCut(trees, region, settings, clusters);
+  return Cut(trees, region, clusters);
 }
 
 Cut::Cut(Cut&& other) noexcept = default;

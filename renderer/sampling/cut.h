@@ -27,13 +27,14 @@ struct LightTrees {
   LightTree local;
   LightTree distant;
   LightId firstDistant;  ///< lights from this number on are distant
+  int exponent;          ///< intensities and estimates are in units of 2^exponent W/sr and W/m²
 
   TreeStatistics statistics() const;
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }
 
  private:
-  LightTrees(const Lights& lights, int exponent, std::chrono::steady_clock::time_point start);
+  LightTrees(const Lights& lights, int exponentOfUnit, std::chrono::steady_clock::time_point start);
   double buildSeconds_;
 };
 
@@ -87,6 +88,18 @@ class FarChoice {
   double sum_ = 0;
 };
 
+/// Counts from many threads. A copy starts at the same count: a cut is moved only before it is shared.
+class VisitCount {
+ public:
+  VisitCount() = default;
+  VisitCount(VisitCount&& other) noexcept : count_(other.get()) {}
+  void add() { count_.fetch_add(1, std::memory_order_relaxed); }
+  std::uint64_t get() const { return count_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint64_t> count_{0};
+};
+
 /// A cut in the form in which it is evaluated. Far clusters have one estimate for all of the region, and one weight for
 /// all of its surfaces of one facing; near ones are evaluated at the point.
 class Cut {
@@ -123,6 +136,10 @@ class Cut {
   /// Keeps a choice, unless another thread was first. Returns the one that is kept. \pre farCount() > 0
   const FarChoice* keep(std::size_t facing, FarChoice choice) const;
 
+  /// Lights that were asked for from this cut, where SamplerSettings::countVisits wants them counted.
+  std::uint64_t visits() const { return visits_.get(); }
+  void countVisit() const { visits_.add(); }
+
   std::size_t bytes() const;
 
  private:
@@ -139,6 +156,10 @@ class Cut {
   std::vector<Member> members_;
   /// One per facing, made when a surface of that facing asks: a cache of a deterministic function.
   std::unique_ptr<std::atomic<const FarChoice*>[]> choices_;
+  mutable VisitCount visits_;
 };
+
+/// The cut that findCut finds for a region, ready to be evaluated.
+Cut makeCut(const LightTrees& trees, const Region& region, const CutSettings& settings);
 
 }  // namespace cellcut

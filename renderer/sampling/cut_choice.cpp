@@ -47,6 +47,22 @@ std::size_t chooseNear(const NearWeights& w, std::size_t blocks, double& u) {
   return block * kClusterBlock + choose(inBlock, u);
 }
 
+/// The weights of all clusters of a cut at a point.
+struct CutWeights {
+  NearWeights near;
+  double sum;
+  double toFar;  ///< probability of the far clusters together
+
+  CutWeights(const Cut& cut, const FarChoice& far, const ShadingPoint& point)
+      : near(cut, point), sum(far.sum() + near.sum), toFar(sum > 0 ? far.sum() / sum : 0) {}
+  double farPmf(const FarChoice& far, std::size_t i) const { return static_cast<double>(far.table().pmf(i)) * toFar; }
+  double nearPmf(std::size_t i) const { return static_cast<double>(near.weight[i]) / sum; }
+  /// Probability of a member. \pre sum > 0
+  double pmf(const Cut& cut, const FarChoice& far, std::size_t member) const {
+    return member < cut.farCount() ? farPmf(far, member) : nearPmf(member - cut.farCount());
+  }
+};
+
 const LightTree& treeOf(const LightTrees& trees, bool distant) {
   return distant ? trees.distant : trees.local;
 }
@@ -98,22 +114,20 @@ double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Shad
 
 std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, const FarChoice& far,
                                       InCluster inCluster, const ShadingPoint& point, double u) {
-  const NearWeights near(cut, point);
-  const double sum = far.sum() + near.sum;
-  if (!(sum > 0)) return std::nullopt;
-  const double toFar = far.sum() / sum;
+  const CutWeights w(cut, far, point);
+  if (!(w.sum > 0)) return std::nullopt;
   std::size_t chosen;
   double pmf;
-  if (u < toFar) {
-    const AliasTable::Sample sample = far.table().sample(std::min(u / toFar, kAlmostOne));
+  if (u < w.toFar) {
+    const AliasTable::Sample sample = far.table().sample(std::min(u / w.toFar, kAlmostOne));
     chosen = sample.index;
     u = sample.rest;
-    pmf = static_cast<double>(far.table().pmf(chosen)) * toFar;
+    pmf = w.farPmf(far, chosen);
   } else {
-    u = std::min((u - toFar) / (near.sum / sum), kAlmostOne);
-    const std::size_t i = chooseNear(near, cut.near().blocks(), u);
+    u = std::min((u - w.toFar) / (w.near.sum / w.sum), kAlmostOne);
+    const std::size_t i = chooseNear(w.near, cut.near().blocks(), u);
     chosen = cut.farCount() + i;
-    pmf = static_cast<double>(near.weight[i]) / sum;
+    pmf = w.nearPmf(i);
   }
   const auto [node, distant, firstLeaf, estimate] = cut.members()[chosen];
   const LightTree& tree = treeOf(trees, distant);
@@ -136,15 +150,21 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, In
   const auto offset = distant ? static_cast<std::uint32_t>(trees.local.leafCount()) : 0u;
   const std::optional<std::size_t> member = cut.memberOf(trees, leaf + offset);
   if (!member) return 0;
-  const NearWeights near(cut, point);
-  const double sum = far.sum() + near.sum;
-  if (!(sum > 0)) return 0;
-  const double pmf = *member < cut.farCount() ? static_cast<double>(far.table().pmf(*member)) * (far.sum() / sum)
-                                              : static_cast<double>(near.weight[*member - cut.farCount()]) / sum;
+  const CutWeights w(cut, far, point);
+  if (!(w.sum > 0)) return 0;
+  const double pmf = w.pmf(cut, far, *member);
   const NodeId node = cut.members()[*member].node;
   const double inside = descends(inCluster, tree, node) ? pmfByDescent(tree, distant, node, point, leaf)
                                                         : tree.pmfByIntensity(node, leaf);
   return static_cast<float>(pmf * inside);
+}
+
+std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point) {
+  std::vector<double> pmfs(cut.size());
+  const CutWeights w(cut, far, point);
+  if (!(w.sum > 0)) return pmfs;
+  for (std::size_t i = 0; i < pmfs.size(); ++i) pmfs[i] = w.pmf(cut, far, i);
+  return pmfs;
 }
 
 }  // namespace cellcut

@@ -24,4 +24,8 @@ std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, c
 float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,
                const ShadingPoint& point, LightId light);
 
+/// Probability that sampleCut() goes into each cluster, in the order of cut.members(); their sum is 1, or all are 0
+/// where nothing is chosen. With InCluster::kDescent less than that comes out again as lights of the cluster.
+std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point);
+
 }  // namespace cellcut

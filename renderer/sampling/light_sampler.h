@@ -13,6 +13,10 @@
 
 namespace cellcut {
 
+struct LightTrees;
+class GridGeometry;
+class CellTable;
+
 /// Where light is to be gathered.
 struct ShadingPoint {
   Vec3 p;  ///< metres
@@ -22,6 +26,15 @@ struct ShadingPoint {
 struct SampledLight {
   LightId light;
   float pmf;  ///< P(light | point), > 0
+};
+
+/// What a strategy with cuts chooses from, for those who look at its decisions (inspection.h). Lives as long as the
+/// strategy.
+struct CutStrategy {
+  const LightTrees* trees;
+  const GridGeometry* grid;  ///< null: every point has a cut of its own
+  const CellTable* cells;    ///< null likewise
+  SamplerSettings settings;
 };
 
 /// A strategy. Threads: const members may run concurrently. Unbiased: P(ℓ | x) > 0 wherever ℓ can contribute at x.
@@ -38,6 +51,8 @@ class LightSampler {
   virtual std::size_t bytes() const = 0;
   /// What was built so far. Not while samples are drawn.
   virtual SamplerStatistics statistics() const { return {}; }
+  /// Nothing for a strategy without cuts.
+  virtual std::optional<CutStrategy> cutStrategy() const { return std::nullopt; }
 };
 
 /// Builds a strategy over lights that outlive it.

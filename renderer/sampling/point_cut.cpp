@@ -21,14 +21,10 @@ class PointCutSampler final : public LightSampler {
   }
   std::size_t bytes() const override { return trees_.bytes(); }
   SamplerStatistics statistics() const override { return {.tree = trees_.statistics()}; }
+  std::optional<CutStrategy> cutStrategy() const override { return CutStrategy{&trees_, nullptr, nullptr, settings_}; }
 
  private:
-  Cut cutAt(const Vec3& p) const {
-    std::vector<Cluster> clusters;
-    const Region region{p, 0};
-    findCut(trees_, region, {settings_.threshold, settings_.maxCut}, clusters);
-    return Cut(trees_, region, clusters);
-  }
+  Cut cutAt(const Vec3& p) const { return makeCut(trees_, {p, 0}, {settings_.threshold, settings_.maxCut}); }
 
   LightTrees trees_;
   SamplerSettings settings_;

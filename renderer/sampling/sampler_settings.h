@@ -23,6 +23,7 @@ struct SamplerSettings {
   int gridResolution = 16;   ///< cells along the longest axis of what is seen; 1 … 1024
   InCluster inCluster = InCluster::kDescent;
   std::size_t cellMemory = std::size_t{256} << 20;  ///< bytes of kept cuts; beyond, cuts are found again at every use
+  bool countVisits = false;                         ///< count how often each kept cut is asked for a light
 };
 
 /// Settings by what they trade. Their values come from measurement: README, "Measured".

@@ -38,10 +38,7 @@ struct Vertex {
 /// \param outgoing  unit, world space, away from the surface
 Vertex makeVertex(const Scene& scene, const SurfacePoint& surface, const Vec3& outgoing) {
   const Vec3 normal = glm::dot(surface.normal, outgoing) < 0 ? -surface.normal : surface.normal;
-  Vec3 shading = shadingNormal(scene, surface.at, normal);
-  // A shading normal that looks away from the viewer would make the surface black: there the flat one serves.
-  if (!(glm::dot(shading, outgoing) > 0)) shading = normal;
-  const Frame frame(shading);
+  const Frame frame(shadingNormalTowards(scene, surface.at, normal, outgoing));
   return {surface, normal, frame, frame.toLocal(outgoing), bsdfAt(scene, surface.at)};
 }
 

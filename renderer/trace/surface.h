@@ -27,4 +27,13 @@ inline SurfacePoint surfaceAt(const Scene& scene, const Hit& hit) {
           triangleGeometry(mesh, hit.triangle).normal};
 }
 
+/// The shading normal that a path leaves the surface with.
+/// \param geometricNormal  unit, on the side of `outgoing`
+inline Vec3 shadingNormalTowards(const Scene& scene, const SurfaceCoordinates& at, const Vec3& geometricNormal,
+                                 const Vec3& outgoing) {
+  const Vec3 shading = shadingNormal(scene, at, geometricNormal);
+  // One that looks away from the viewer would make the surface black: there the flat one serves.
+  return glm::dot(shading, outgoing) > 0 ? shading : geometricNormal;
+}
+
 }  // namespace cellcut
