@@ -24,6 +24,8 @@ struct SamplerSettings {
   InCluster inCluster = InCluster::kDescent;
   std::size_t cellMemory = std::size_t{256} << 20;  ///< bytes of kept cuts; beyond, cuts are found again at every use
   bool countVisits = false;                         ///< count how often each kept cut is asked for a light
+
+  bool operator==(const SamplerSettings&) const = default;
 };
 
 /// Settings by what they trade. Their values come from measurement: README, "Measured".

@@ -2,20 +2,8 @@
 
 #include "renderer/trace/pilot.h"
 
-#include <tuple>
 
 namespace cellcut {
-namespace {
-
-bool isSame(const SamplerSettings& a, const SamplerSettings& b) {
-  // The bindings stop to compile when a parameter is added.
-  const auto& [threshold, maxCut, gridResolution, inCluster, cellMemory] = a;
-  return std::tie(threshold, maxCut, gridResolution, inCluster, cellMemory) ==
-         std::tie(b.threshold, b.maxCut, b.gridResolution, b.inCluster, b.cellMemory);
-}
-
-}  // namespace
-
 std::unique_ptr<LightSampler> makeLightSampler(const PreparedScene& prepared, const RenderSettings& settings) {
   const Scene& scene = prepared.scene;
   return makeLightSampler(settings.strategy, prepared.lights, settings.sampler,
@@ -25,7 +13,7 @@ std::unique_ptr<LightSampler> makeLightSampler(const PreparedScene& prepared, co
 bool haveSameSampler(const RenderSettings& a, const RenderSettings& b) {
   if (a.strategy != b.strategy) return false;
   if (a.strategy != Strategy::kCellCut && a.strategy != Strategy::kPointCut) return true;
-  if (!isSame(a.sampler, b.sampler)) return false;
+  if (a.sampler != b.sampler) return false;
   if (a.strategy == Strategy::kPointCut) return true;
   return a.camera == b.camera && std::min(a.maxDepth, kPilotDepth) == std::min(b.maxDepth, kPilotDepth);
 }

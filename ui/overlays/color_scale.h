@@ -29,6 +29,8 @@ struct ScaleSettings {
   std::optional<ValueRange> pinned;  ///< nothing: the range of the values
   ScaleKind kind = ScaleKind::kLinear;
   Colormap colormap = Colormap::kViridis;
+
+  bool operator==(const ScaleSettings&) const = default;
 };
 
 /// Least and largest of the finite values, for a logarithm of the positive ones; nothing when there is none.

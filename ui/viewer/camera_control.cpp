@@ -39,6 +39,11 @@ nlohmann::json toJson(const Vec3& v) {
 
 }  // namespace
 
+bool sameView(const Camera& a, const Camera& b) {
+  return a.orthographic == b.orthographic && a.position == b.position && a.right == b.right && a.up == b.up &&
+         a.back == b.back && a.halfHeight == b.halfHeight;
+}
+
 CameraPose poseOf(const Camera& camera, const Bounds& scene) {
   CameraPose pose{camera, 1};
   const float size = scene.empty() || !(scene.radius() > 0) ? 1.0f : scene.radius();

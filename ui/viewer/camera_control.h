@@ -19,6 +19,9 @@ struct CameraPose {
   Vec3 target() const { return camera.position - focus * camera.back; }
 };
 
+/// Whether both show the same; names aside.
+bool sameView(const Camera& a, const Camera& b);
+
 /// A camera as the scene has it; it looks at the middle of what the scene holds, as far as that lies before it.
 CameraPose poseOf(const Camera& camera, const Bounds& scene);
 /// Turns around the target: angles.x to the right, angles.y upwards; never over the poles.

@@ -3,15 +3,6 @@
 #include <chrono>
 
 namespace cellcut {
-namespace {
-
-bool sameView(const Camera& a, const Camera& b) {
-  return a.orthographic == b.orthographic && a.position == b.position && a.right == b.right && a.up == b.up &&
-         a.back == b.back && a.halfHeight == b.halfHeight;
-}
-
-}  // namespace
-
 /// First hits change with the view alone: kept from overlay to overlay.
 struct OverlaySource::Cache {
   const Scene* scene = nullptr;
@@ -43,17 +34,23 @@ int samplesPerSide(std::size_t lights) {
 }
 
 ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, bool grid, const PixelReport* inspection) {
-  std::vector<LineSegment> segments;
+  constexpr Rgba8 kCells(255, 255, 255, 110), kPickedCell(255, 200, 40, 255);
+  constexpr std::uint8_t kClusterAlpha = 200;
+  std::vector<Segment> segments;
   if (grid) {
-    if (const auto inspector = CutInspector::of(view.sampler)) segments = touchedCellSegments(*inspector);
+    if (const auto inspector = CutInspector::of(view.sampler)) segments = touchedCellSegments(*inspector, kCells);
   }
   if (inspection) {
-    const std::vector<LineSegment> boxes = inspectionSegments(*inspection);
+    std::vector<ClusterInspection> clusters;
+    for (const ClusterRow& row : inspection->clusters) clusters.push_back(row.cluster);
+    const float pointSize = 0.01f * view.scene.bounds.radius();
+    const std::vector<Segment> boxes = clusterSegments(clusters, Colormap::kViridis, kClusterAlpha, pointSize);
     segments.insert(segments.end(), boxes.begin(), boxes.end());
+    appendBox(segments, inspection->cellBox, kPickedCell);
   }
   if (segments.empty()) return {};
   ImageRgba8 lines(hits.width(), hits.height());
-  drawSegments(lines, hits, viewOf(view.scene, view.settings), segments);
+  drawSegments(lines, depthOf(hits), viewOf(view.scene, view.settings), segments);
   return lines;
 }
 

@@ -25,26 +25,16 @@ Vec2 mousePosition() {
   return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
 }
 
-bool sameLimits(const SessionInput& a, const SessionInput& b) {
-  return a.passLimit == b.passLimit && a.timeLimit == b.timeLimit && a.noiseLimit == b.noiseLimit &&
-         a.paused == b.paused;
-}
-
-bool sameSampler(const SamplerSettings& a, const SamplerSettings& b) {
-  return a.threshold == b.threshold && a.maxCut == b.maxCut && a.gridResolution == b.gridResolution &&
-         a.inCluster == b.inCluster && a.cellMemory == b.cellMemory && a.countVisits == b.countVisits;
-}
-
-bool sameCamera(const std::optional<Camera>& a, const std::optional<Camera>& b) {
-  if (!a || !b) return !a && !b;
-  return a->position == b->position && a->back == b->back && a->up == b->up && a->halfHeight == b->halfHeight &&
-         a->orthographic == b->orthographic;
-}
-
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
-  return a.width == b.width && a.height == b.height && a.maxDepth == b.maxDepth && a.strategy == b.strategy &&
-         a.seed == b.seed && a.camera == b.camera && a.sampling == b.sampling && a.threads == b.threads &&
-         sameCamera(a.view, b.view) && sameSampler(a.sampler, b.sampler);
+  const bool sameCamera = a.camera == b.camera && a.view.has_value() == b.view.has_value() &&
+                          (!a.view || sameView(*a.view, *b.view));
+  return sameCamera && a.width == b.width && a.height == b.height && a.maxDepth == b.maxDepth &&
+         a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler;
+}
+
+bool sameInput(const SessionInput& a, const SessionInput& b) {
+  return a.scene == b.scene && sameSettings(a.settings, b.settings) && a.passLimit == b.passLimit &&
+         a.timeLimit == b.timeLimit && a.noiseLimit == b.noiseLimit && a.paused == b.paused;
 }
 
 bool sameOverlay(const ViewerState& a, const ViewerState& b) {
@@ -334,12 +324,10 @@ void Viewer::applyEdits() {
   input.timeLimit = state_.timeLimit;
   input.noiseLimit = state_.noiseLimit;
   input.paused = state_.paused;
-  const bool same = input.scene == applied_.scene && sameSettings(input.settings, applied_.settings) &&
-                    sameLimits(input, applied_);
   edited_ = false;
-  if (same) return;
-  if (applied_.scene && !sameSettings(input.settings, applied_.settings) &&
-      (input.settings.width != applied_.settings.width || input.settings.height != applied_.settings.height)) {
+  if (sameInput(input, applied_)) return;
+  const RenderSettings& before = applied_.settings;
+  if (applied_.scene && (input.settings.width != before.width || input.settings.height != before.height)) {
     state_.pick.reset();  // that pixel shows something else now
   }
   applied_ = input;
@@ -373,9 +361,7 @@ void Viewer::refreshOverlay() {
 
 void Viewer::showOverlay() {
   const bool sameColours = overlayState_.overlay.opacity == state_.overlay.opacity &&
-                           overlayState_.overlay.scale.kind == state_.overlay.scale.kind &&
-                           overlayState_.overlay.scale.colormap == state_.overlay.scale.colormap &&
-                           overlayState_.overlay.scale.pinned == state_.overlay.scale.pinned;
+                           overlayState_.overlay.scale == state_.overlay.scale;
   if (!overlay_) {
     view_.clearOverlay();
     return;

@@ -17,6 +17,8 @@ struct OverlayChoice {
   ScaleSettings scale;
   float opacity = 0.7f;  ///< [0, 1]
   bool grid = false;     ///< wireframe of the touched cells
+
+  bool operator==(const OverlayChoice&) const = default;
 };
 
 struct ViewerState {
