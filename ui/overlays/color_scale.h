@@ -59,7 +59,12 @@ class ColorScale {
 /// A picture of the values, `opacity` in [0, 1] as its alpha, not premultiplied. NaN is transparent black.
 ImageRgba8 colorize(const Image<float>& values, const ColorScale& scale, float opacity);
 
-/// Lays `overlay` over `image`, which stays opaque. Integer arithmetic, rounded to nearest. \pre of the same size
+using Rgba8 = glm::vec<4, std::uint8_t>;  ///< sRGB and alpha, not premultiplied
+
+/// One colour over another, in integers rounded to nearest: the same on every machine.
+Rgba8 over(const Rgba8& below, const Rgba8& above);
+
+/// Lays `overlay` over `image`. \pre of the same size
 void blendOver(ImageRgba8& image, const ImageRgba8& overlay);
 
 struct LegendTick {
