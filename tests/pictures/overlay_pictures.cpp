@@ -64,7 +64,7 @@ class Pictures {
     const PixelReport report = *inspectPixel(inputs, pixel, 4, kNever);
     std::vector<ClusterInspection> clusters;
     for (const ClusterRow& row : report.clusters) clusters.push_back(row.cluster);
-    std::vector<Segment> segments = clusterSegments(clusters, Colormap::kViridis, 255, 0.1f);
+    std::vector<Segment> segments = clusterSegments(clusters, probabilityScale(clusters, Colormap::kTurbo), 255, 0.1f);
     appendBox(segments, report.cellBox, {255, 0, 255, 255});
     ImageRgba8 image = shown(mean_);
     drawSegments(image, depth, run_.camera(), segments);

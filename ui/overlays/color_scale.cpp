@@ -75,7 +75,8 @@ ColorScale::ColorScale(const Image<float>& values, const ScaleSettings& settings
 }
 
 double ColorScale::position(double value) const {
-  assert(range_ && !std::isnan(value));
+  assert(!std::isnan(value));
+  if (!range_) return 0;
   double low = range_->minimum, high = range_->maximum;
   if (low == high) return value < low ? 0 : (value > high ? 1 : 0.5);
   if (value <= low) return 0;

@@ -46,8 +46,8 @@ class ColorScale {
   const std::optional<ValueRange>& range() const { return range_; }
   ScaleKind kind() const { return settings_.kind; }
 
-  /// Where a value lies on the bar, 0 at its minimum and 1 at its maximum, clamped. Half-way in a range of one value.
-  /// ±Infinity lies at the ends; for a logarithm, values that are not positive at 0. \pre range(), value is not NaN
+  /// Where a value lies on the bar, 0 at its minimum and 1 at its maximum, clamped. Half-way in a range of one value; 0
+  /// without a range. ±Infinity lies at the ends; for a logarithm, values that are not positive at 0. \pre not NaN
   double position(double value) const;
   Rgb8 color(double value) const { return colorOf(settings_.colormap, position(value)); }
 

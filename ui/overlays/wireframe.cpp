@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -15,6 +14,8 @@ constexpr double kDepthMargin = 0.005;
 /// Depth of the plane in front of a perspective camera that lines are clipped at, relative to the segment's extent from
 /// the camera: lines nearer than that are not seen, and their quotients stay finite.
 constexpr double kNearShare = 1e-4;
+/// Least probability that has a colour of its own, relative to the largest.
+constexpr double kProbabilityDecades = 1e-3;
 
 Vec3 cornerOf(const Bounds& box, int corner) {
   return {corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
@@ -175,22 +176,30 @@ std::vector<Segment> touchedCellSegments(const CutInspector& inspector, const Rg
   return segments;
 }
 
-std::vector<Segment> clusterSegments(std::span<const ClusterInspection> clusters, Colormap colormap, std::uint8_t alpha,
-                                     float pointSize) {
-  std::vector<std::size_t> order(clusters.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return clusters[a].probability < clusters[b].probability; });
-  const double largest = order.empty() ? 0 : clusters[order.back()].probability;
+ColorScale probabilityScale(std::span<const ClusterInspection> clusters, Colormap colormap) {
+  double largest = 0;
+  for (const ClusterInspection& c : clusters) largest = std::max(largest, c.probability);
+  return {
+      {},
+      {.pinned = ValueRange{kProbabilityDecades * largest, largest}, .kind = ScaleKind::kLog, .colormap = colormap}};
+}
+
+std::vector<Segment> clusterSegments(std::span<const ClusterInspection> clusters, const ColorScale& scale,
+                                     std::uint8_t alpha, float pointSize) {
+  std::vector<const ClusterInspection*> order;
+  for (const ClusterInspection& c : clusters) {
+    if (!c.distant) order.push_back(&c);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const ClusterInspection* a, const ClusterInspection* b) {
+    return a->probability < b->probability;
+  });
   std::vector<Segment> segments;
-  for (const std::size_t i : order) {
-    const ClusterInspection& c = clusters[i];
-    if (c.distant) continue;
-    const Rgba8 color(colorOf(colormap, largest > 0 ? c.probability / largest : 0), alpha);
-    if (c.box.lower == c.box.upper) {
-      appendCross(segments, c.box.lower, pointSize, color);
+  for (const ClusterInspection* c : order) {
+    const Rgba8 color(scale.color(c->probability), alpha);
+    if (c->box.lower == c->box.upper) {
+      appendCross(segments, c->box.lower, pointSize, color);
     } else {
-      appendBox(segments, c.box, color);
+      appendBox(segments, c->box, color);
     }
   }
   return segments;

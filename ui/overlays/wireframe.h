@@ -28,11 +28,14 @@ void appendBox(std::vector<Segment>& segments, const Bounds& box, const Rgba8& c
 /// The edges of all cells that were touched and kept; what neighbours share is there once. In a fixed order.
 std::vector<Segment> touchedCellSegments(const CutInspector& inspector, const Rgba8& color);
 
-/// The boxes of the local clusters of a cut, coloured by probability: `colormap` from 0 to the largest one. Likelier ones
-/// come later and so lie above. Distant clusters have no box. A cluster of one point light is a small cross of
-/// `pointSize` metres from end to end.
-std::vector<Segment> clusterSegments(std::span<const ClusterInspection> clusters, Colormap colormap, std::uint8_t alpha,
-                                     float pointSize);
+/// Colours for the probabilities of a cut: logarithmic over three decades below the largest one, for one cluster often
+/// takes most of it. Without a range where all are 0.
+ColorScale probabilityScale(std::span<const ClusterInspection> clusters, Colormap colormap);
+
+/// The boxes of the local clusters of a cut, coloured by probability. Likelier ones come later and so lie above. Distant
+/// clusters have no box. A cluster of one point light is a small cross of `pointSize` metres from end to end.
+std::vector<Segment> clusterSegments(std::span<const ClusterInspection> clusters, const ColorScale& scale,
+                                     std::uint8_t alpha, float pointSize);
 
 /// Distances of the first hits along the unit camera rays; infinite where nothing was hit.
 Image<float> depthOf(const Image<FirstHit>& firstHits);

@@ -170,12 +170,23 @@ TEST(ClusterBoxes, AreColouredByProbabilityTheLikeliestLast) {
   clusters[2].distant = true;
   clusters[2].probability = 0.25;
   clusters[3].box = {Vec3(4), Vec3(5)};
-  const std::vector<Segment> segments = clusterSegments(clusters, Colormap::kViridis, 200, 0.1f);
+  const ColorScale scale = probabilityScale(clusters, Colormap::kViridis);
+  EXPECT_EQ(scale.range(), (ValueRange{0.0005, 0.5}));
+  const std::vector<Segment> segments = clusterSegments(clusters, scale, 200, 0.1f);
   ASSERT_EQ(segments.size(), 12u + 3u + 12u);
   EXPECT_EQ(segments.front().color, Rgba8(colorOf(Colormap::kViridis, 0), 200));
-  EXPECT_EQ(segments[12].color, Rgba8(colorOf(Colormap::kViridis, 0.5), 200));
+  EXPECT_EQ(segments[12].color, Rgba8(scale.color(0.25), 200));
   EXPECT_NEAR(glm::length(segments[12].to - segments[12].from), 0.1f, 1e-6f);
   EXPECT_EQ(segments.back().color, Rgba8(colorOf(Colormap::kViridis, 1), 200));
+}
+
+TEST(ClusterBoxes, OfACutThatNothingIsChosenFromHaveTheLowestColour) {
+  const std::array clusters{ClusterInspection{.box = {Vec3(0), Vec3(1)}}};
+  const ColorScale scale = probabilityScale(clusters, Colormap::kViridis);
+  EXPECT_FALSE(scale.range());
+  const std::vector<Segment> segments = clusterSegments(clusters, scale, 255, 0.1f);
+  ASSERT_EQ(segments.size(), 12u);
+  EXPECT_EQ(segments[0].color, Rgba8(colorOf(Colormap::kViridis, 0), 255));
 }
 
 }  // namespace
