@@ -51,10 +51,6 @@ std::vector<double> logTicks(const ValueRange& range, bool integral) {
   return ticks;
 }
 
-std::uint8_t blended(std::uint8_t below, std::uint8_t above, std::uint8_t alpha) {
-  return static_cast<std::uint8_t>((above * alpha + below * (255 - alpha) + 127) / 255);
-}
-
 }  // namespace
 
 std::optional<ScaleKind> scaleFromName(std::string_view name) {
@@ -79,7 +75,8 @@ ColorScale::ColorScale(const Image<float>& values, const ScaleSettings& settings
 }
 
 double ColorScale::position(double value) const {
-  assert(range_ && !std::isnan(value));
+  assert(!std::isnan(value));
+  if (!range_) return 0;
   double low = range_->minimum, high = range_->maximum;
   if (low == high) return value < low ? 0 : (value > high ? 1 : 0.5);
   if (value <= low) return 0;
@@ -102,13 +99,20 @@ ImageRgba8 colorize(const Image<float>& values, const ColorScale& scale, float o
   return image;
 }
 
+Rgba8 over(const Rgba8& below, const Rgba8& above) {
+  const int shareAbove = 255 * above.a, shareBelow = below.a * (255 - above.a), sum = shareAbove + shareBelow;
+  Rgba8 mixed(0);
+  if (sum == 0) return mixed;
+  for (int c = 0; c < 3; ++c) {
+    mixed[c] = static_cast<std::uint8_t>((above[c] * shareAbove + below[c] * shareBelow + sum / 2) / sum);
+  }
+  mixed.a = static_cast<std::uint8_t>((sum + 127) / 255);
+  return mixed;
+}
+
 void blendOver(ImageRgba8& image, const ImageRgba8& overlay) {
   assert(image.width() == overlay.width() && image.height() == overlay.height());
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    const auto& above = overlay[i];
-    for (int c = 0; c < 3; ++c) image[i][c] = blended(image[i][c], above[c], above.a);
-    image[i].a = 255;
-  }
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = over(image[i], overlay[i]);
 }
 
 std::string shortNumber(double value, int digits) {

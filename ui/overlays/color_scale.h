@@ -48,8 +48,8 @@ class ColorScale {
   const std::optional<ValueRange>& range() const { return range_; }
   ScaleKind kind() const { return settings_.kind; }
 
-  /// Where a value lies on the bar, 0 at its minimum and 1 at its maximum, clamped. Half-way in a range of one value.
-  /// ±Infinity lies at the ends; for a logarithm, values that are not positive at 0. \pre range(), value is not NaN
+  /// Where a value lies on the bar, 0 at its minimum and 1 at its maximum, clamped. Half-way in a range of one value; 0
+  /// without a range. ±Infinity lies at the ends; for a logarithm, values that are not positive at 0. \pre not NaN
   double position(double value) const;
   Rgb8 color(double value) const { return colorOf(settings_.colormap, position(value)); }
 
@@ -61,7 +61,12 @@ class ColorScale {
 /// A picture of the values, `opacity` in [0, 1] as its alpha, not premultiplied. NaN is transparent black.
 ImageRgba8 colorize(const Image<float>& values, const ColorScale& scale, float opacity);
 
-/// Lays `overlay` over `image`, which stays opaque. Integer arithmetic, rounded to nearest. \pre of the same size
+using Rgba8 = glm::vec<4, std::uint8_t>;  ///< sRGB and alpha, not premultiplied
+
+/// One colour over another, in integers rounded to nearest: the same on every machine.
+Rgba8 over(const Rgba8& below, const Rgba8& above);
+
+/// Lays `overlay` over `image`. \pre of the same size
 void blendOver(ImageRgba8& image, const ImageRgba8& overlay);
 
 struct LegendTick {

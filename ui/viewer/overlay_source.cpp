@@ -44,7 +44,7 @@ ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, bool 
     std::vector<ClusterInspection> clusters;
     for (const ClusterRow& row : inspection->clusters) clusters.push_back(row.cluster);
     const float pointSize = 0.01f * view.scene.bounds.radius();
-    const std::vector<Segment> boxes = clusterSegments(clusters, Colormap::kViridis, kClusterAlpha, pointSize);
+    const std::vector<Segment> boxes = clusterSegments(clusters, probabilityScale(clusters, Colormap::kViridis), kClusterAlpha, pointSize);
     segments.insert(segments.end(), boxes.begin(), boxes.end());
     appendBox(segments, inspection->cellBox, kPickedCell);
   }
@@ -76,8 +76,7 @@ void OverlaySource::request(RenderSession& session, const OverlayChoice& choice,
                                .mean = &mean,
                                .standardError = &error,
                                .passes = view.film.passes(),
-                               .reference = reference.get(),
-                               .badSamples = &view.film.badSampleCounts()};
+                               .reference = reference.get()};
     if (choice.overlay != Overlay::kNone) {
       if (auto values = computeOverlay(choice.overlay, inputs, size, cache->stop)) {
         picture.values = std::move(*values);

@@ -137,6 +137,13 @@ TEST(BlendOver, MixesByAlpha) {
   EXPECT_EQ(image[2], glm::u8vec4(200, 0, 255, 255));
 }
 
+TEST(Over, KeepsTheColourOverNothingAndAddsCoverage) {
+  EXPECT_EQ(over(Rgba8(9, 9, 9, 0), Rgba8(10, 20, 30, 77)), Rgba8(10, 20, 30, 77));
+  EXPECT_EQ(over(Rgba8(10, 20, 30, 77), Rgba8(9, 9, 9, 0)), Rgba8(10, 20, 30, 77));
+  EXPECT_EQ(over(Rgba8(5, 5, 5, 0), Rgba8(5, 5, 5, 0)), Rgba8(0));
+  EXPECT_EQ(over(Rgba8(0, 0, 0, 128), Rgba8(255, 255, 255, 128)).a, 192);  // 1 − (1 − 0.5)², rounded
+}
+
 TEST(Legend, LinearTicksAreRoundNumbers) {
   EXPECT_THAT(labelsOf(legendOf(0, 1)), ElementsAre("0", "0.2", "0.4", "0.6", "0.8", "1"));
   EXPECT_THAT(labelsOf(legendOf(-3, 12)), ElementsAre("0", "5", "10"));
