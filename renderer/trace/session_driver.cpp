@@ -90,16 +90,23 @@ std::shared_ptr<const Snapshot> SessionDriver::waitPasses(std::uint64_t passes) 
 
 void SessionDriver::run() {
   setThreadNiceness(kDriverNiceness);
-  for (;;) {
-    Orders orders = takeOrders();
-    if (orders.stop) return;
+  while (followOrders()) {
     try {
-      follow(std::move(orders));
+      work();
     } catch (const std::exception& e) {
       failed_ = true;
       refuse(e.what());
     }
   }
+}
+
+bool SessionDriver::followOrders() {
+  Orders orders = takeOrders();
+  if (orders.stop) return false;
+  if (orders.input) answer(std::move(*orders.input));
+  if (!picture_.exists()) return true;  // nobody will run the jobs: their futures say so
+  for (const Job& job : orders.jobs) picture_.execute([&] { job(picture_.view(answered_)); });
+  return true;
 }
 
 SessionDriver::Orders SessionDriver::takeOrders() {
@@ -115,11 +122,7 @@ SessionDriver::Orders SessionDriver::takeOrders() {
   return orders;
 }
 
-void SessionDriver::follow(Orders orders) {
-  if (orders.input) answer(std::move(*orders.input));
-  if (picture_.exists()) {
-    for (const Job& job : orders.jobs) picture_.execute([&] { job(picture_.view(answered_)); });
-  }
+void SessionDriver::work() {
   if (previewScale_ > 0 && !failed_) {
     renderPreview();
   } else if (wantsPass()) {

@@ -43,7 +43,8 @@ class SessionDriver {
 
   void run();
   Orders takeOrders();
-  void follow(Orders orders);
+  bool followOrders();  ///< false: to stop
+  void work();
   void rest();
 
   void answer(SessionInput input);

@@ -40,7 +40,9 @@ struct Headless {
   std::size_t touchedCells;
 };
 Headless renderHeadless(const SessionInput& input, std::uint64_t passes) {
-  Renderer renderer(*input.scene, input.settings);
+  RenderSettings settings = input.settings;
+  settings.threads = 0;
+  Renderer renderer(*input.scene, settings);
   const std::atomic<bool> never{false};
   for (std::uint64_t i = 0; i < passes; ++i) renderer.renderPass(never);
   const auto grid = renderer.samplerStatistics().grid;
@@ -60,8 +62,8 @@ class Session : public testing::Test {
   /// A pass that takes minutes.
   SessionInput endless() const {
     SessionInput slow = input;
-    slow.scene = std::make_shared<Scene>(stage(LightMix::kTriangle, 1000, 3));
-    slow.settings.width = slow.settings.height = 4000;
+    slow.scene = std::make_shared<Scene>(stage(LightMix::kTriangle, 10'000, 3));
+    slow.settings.width = slow.settings.height = 1000;
     slow.settings.strategy = Strategy::kProportional;
     slow.settings.auxiliary = false;
     slow.preview = false;
@@ -498,7 +500,7 @@ TEST_F(Session, IsInspectedWhileAPassGoesOn) {
   const auto [generation, passes, lights] = session.inspect(look).get();
   EXPECT_EQ(generation, 1u);
   EXPECT_EQ(passes, 0u);
-  EXPECT_EQ(lights, 1000u);
+  EXPECT_EQ(lights, 10'000u);
   EXPECT_EQ(session.state(), SessionState::kRendering);
 }
 
