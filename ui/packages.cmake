@@ -17,6 +17,7 @@ foreach(part "glfw3_FOUND=libglfw3-dev" "EPOXY_INCLUDE_DIR=libepoxy-dev" "EPOXY_
   endif()
 endforeach()
 list(REMOVE_DUPLICATES CELLCUT_UI_MISSING)
+list(JOIN CELLCUT_UI_MISSING ", " CELLCUT_UI_MISSING)
 if(CELLCUT_UI_MISSING)
   set(CELLCUT_UI_FOUND OFF)
 else()

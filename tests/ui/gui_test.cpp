@@ -65,6 +65,7 @@ TEST_F(GuiTest, AButtonIsClickedOnceByAClickWithinOneFrame) {
     button = middleOfItem();
   };
   frame(body);
+  frame(body);  // ImGui 1.90 passes over a click in the frame after a window's first
   post({MouseMove{button}, MouseButtonChange{MouseButton::kLeft, true}, MouseButtonChange{MouseButton::kLeft, false}});
   framesUntilAllIsSeen(body);
   EXPECT_EQ(clicks, 1);
