@@ -17,8 +17,8 @@ std::string formatted(const char* format, Values... values) {
 }
 
 template <class Entries>
-auto namesOf(const Entries& entries) {
-  std::array<std::string_view, std::tuple_size_v<std::remove_cvref_t<Entries>>> names;
+constexpr auto namesOf(const Entries& entries) {
+  std::array<std::string_view, std::tuple_size_v<std::remove_cvref_t<Entries>>> names{};
   std::transform(entries.begin(), entries.end(), names.begin(), [](const auto& entry) { return entry.name; });
   return names;
 }
