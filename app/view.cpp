@@ -33,8 +33,7 @@ struct ViewOptions {
 };
 
 OpenedWindow windowFor(const ViewOptions& options) {
-  const WindowSettings settings{
-      .size = {options.common.render.settings.width, options.common.render.settings.height}};
+  const WindowSettings settings{.size = {options.common.render.settings.width, options.common.render.settings.height}};
   if (options.common.windowKind) return {openWindow(*options.common.windowKind, settings), ""};
   if (options.headless) return {openWindow(WindowKind::kEgl, settings), ""};
   return openAnyWindow(settings);
@@ -67,7 +66,8 @@ int showViewer(const ViewOptions& options, const Console& console) {
   if (!opened.notice.empty()) {
     // Nobody would see what goes on in memory, nor could end it.
     if (!options.script) {
-      throw std::runtime_error(opened.notice + "; for a picture there is 'cellcut screenshot', for a script --headless");
+      throw std::runtime_error(opened.notice +
+                               "; for a picture there is 'cellcut screenshot', for a script --headless");
     }
     console.err << "cellcut: " << opened.notice << '\n';
   }

@@ -91,8 +91,9 @@ ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, Vie
     if (report.cell) widgets.text("Cell", cellText(*report.cell) + (report.kept ? "" : " (not touched)"));
     widgets.text("Clusters", std::to_string(report.clusters.size()), "In the cut of the cell");
     if (report.distance) {
-      widgets.text("Mismatch", shortNumber(*report.distance, 3),
-                   "Total variation distance between the probabilities and the true visible shares: 0 perfect, 1 hopeless");
+      widgets.text(
+          "Mismatch", shortNumber(*report.distance, 3),
+          "Total variation distance between the probabilities and the true visible shares: 0 perfect, 1 hopeless");
     }
     drawTable(report.clusters, state);
     if (widgets.button("Copy cut", "The table as JSON to the clipboard")) command = ViewerCommand::kExportCut;

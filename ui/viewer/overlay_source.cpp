@@ -44,7 +44,8 @@ ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, bool 
     std::vector<ClusterInspection> clusters;
     for (const ClusterRow& row : inspection->clusters) clusters.push_back(row.cluster);
     const float pointSize = 0.01f * view.scene.bounds.radius();
-    const std::vector<Segment> boxes = clusterSegments(clusters, probabilityScale(clusters, Colormap::kViridis), kClusterAlpha, pointSize);
+    const std::vector<Segment> boxes =
+        clusterSegments(clusters, probabilityScale(clusters, Colormap::kViridis), kClusterAlpha, pointSize);
     segments.insert(segments.end(), boxes.begin(), boxes.end());
     appendBox(segments, inspection->cellBox, kPickedCell);
   }

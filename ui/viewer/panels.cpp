@@ -63,8 +63,9 @@ void drawSamplerSettings(Widgets& widgets, ViewerState& state) {
                    "Cells along the longest axis of what is seen. More: better estimates, more cells to make", true);
   }
   static constexpr std::array<std::string_view, 2> kInCluster{"intensity", "descent"};
-  chooseEnum(widgets, "In cluster", s.inCluster, kInCluster,
-             "How a light is chosen inside a cluster: by intensity (faster), or down the tree by importance (less noise)");
+  chooseEnum(
+      widgets, "In cluster", s.inCluster, kInCluster,
+      "How a light is chosen inside a cluster: by intensity (faster), or down the tree by importance (less noise)");
 }
 
 template <class T>
@@ -227,27 +228,27 @@ ViewerCommand drawProblem(Widgets& widgets, const ViewerFacts& facts) {
 
 void drawHelp(bool& open) {
   static constexpr std::array<std::array<const char*, 2>, 22> kKeys{{{"F1", "this sheet"},
-                                                                      {"F2", "hide or show the panels"},
-                                                                      {"F5", "load the scene's file again"},
-                                                                      {"F12", "save window (PNG) and rendering (EXR)"},
-                                                                      {"drag left", "orbit around what is looked at"},
-                                                                      {"drag right", "look around"},
-                                                                      {"drag middle", "pan"},
-                                                                      {"wheel", "nearer, farther"},
-                                                                      {"W A S D", "fly; Q E or C Space down and up"},
-                                                                      {"Shift", "fly ten times as fast"},
-                                                                      {"click", "inspect the cell under the pointer"},
-                                                                      {"F", "orbit around the point under the pointer"},
-                                                                      {"R", "back to the scene's camera"},
-                                                                      {"1 … 6", "strategies"},
-                                                                      {"O", "next overlay; Shift+O the one before"},
-                                                                      {"G", "wireframe of the touched cells"},
-                                                                      {"P, .", "pause, one pass"},
-                                                                      {"T, hold B", "store the picture, flip to it"},
-                                                                      {"+ −", "exposure"},
-                                                                      {"Ctrl+C, Ctrl+V", "copy and paste the view"},
-                                                                      {"Escape", "end the inspection"},
-                                                                      {"drop a file", "open a scene"}}};
+                                                                     {"F2", "hide or show the panels"},
+                                                                     {"F5", "load the scene's file again"},
+                                                                     {"F12", "save window (PNG) and rendering (EXR)"},
+                                                                     {"drag left", "orbit around what is looked at"},
+                                                                     {"drag right", "look around"},
+                                                                     {"drag middle", "pan"},
+                                                                     {"wheel", "nearer, farther"},
+                                                                     {"W A S D", "fly; Q E or C Space down and up"},
+                                                                     {"Shift", "fly ten times as fast"},
+                                                                     {"click", "inspect the cell under the pointer"},
+                                                                     {"F", "orbit around the point under the pointer"},
+                                                                     {"R", "back to the scene's camera"},
+                                                                     {"1 … 6", "strategies"},
+                                                                     {"O", "next overlay; Shift+O the one before"},
+                                                                     {"G", "wireframe of the touched cells"},
+                                                                     {"P, .", "pause, one pass"},
+                                                                     {"T, hold B", "store the picture, flip to it"},
+                                                                     {"+ −", "exposure"},
+                                                                     {"Ctrl+C, Ctrl+V", "copy and paste the view"},
+                                                                     {"Escape", "end the inspection"},
+                                                                     {"drop a file", "open a scene"}}};
   ImGui::SetNextWindowSize(ImVec2(30 * ImGui::GetFontSize(), 0), ImGuiCond_Always);
   const ImVec2 middle(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y);
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
@@ -269,8 +270,9 @@ void drawLegend(const OverlayPicture& overlay, const OverlayChoice& choice, cons
   const float font = ImGui::GetFontSize(), width = std::min(16 * font, area.size.x - 2 * font), height = 0.9f * font;
   const float pad = 0.5f * font;
   const ImVec2 corner(area.origin.x + font, area.origin.y + area.size.y - 4.2f * font);
-  list->AddRectFilled(ImVec2(corner.x - pad, corner.y - pad), ImVec2(corner.x + width + 2 * pad, corner.y + 3.6f * font),
-                      IM_COL32(15, 15, 18, 205), 4 * uiScale);
+  list->AddRectFilled(ImVec2(corner.x - pad, corner.y - pad),
+                      ImVec2(corner.x + width + 2 * pad, corner.y + 3.6f * font), IM_COL32(15, 15, 18, 205),
+                      4 * uiScale);
   const std::string title = legend.unit.empty() ? legend.title : legend.title + ", " + legend.unit;
   list->AddText(corner, IM_COL32_WHITE, (legend.range ? title : title + ": no values").c_str());
   if (!legend.range) return;
@@ -278,7 +280,8 @@ void drawLegend(const OverlayPicture& overlay, const OverlayChoice& choice, cons
   constexpr int kSteps = 128;
   for (int i = 0; i < kSteps; ++i) {
     const Rgb8 c = colorOf(choice.scale.colormap, (i + 0.5) / kSteps);
-    const float x0 = bar.x + width * static_cast<float>(i) / kSteps, x1 = bar.x + width * static_cast<float>(i + 1) / kSteps;
+    const float x0 = bar.x + width * static_cast<float>(i) / kSteps,
+                x1 = bar.x + width * static_cast<float>(i + 1) / kSteps;
     list->AddRectFilled(ImVec2(x0, bar.y), ImVec2(x1, bar.y + height), IM_COL32(c.x, c.y, c.z, 255));
   }
   float free = -1e9f;  // labels that would touch the one before are left out

@@ -23,15 +23,15 @@ struct ViewerFacts {
 /// What a person asked for by a button or a key: at most one per frame.
 enum class ViewerCommand {
   kNone,
-  kStore,        ///< keep the picture for comparison
-  kForget,       ///< drop it
-  kSave,         ///< the window as PNG, the rendering as EXR
-  kReload,       ///< the scene's file
+  kStore,   ///< keep the picture for comparison
+  kForget,  ///< drop it
+  kSave,    ///< the window as PNG, the rendering as EXR
+  kReload,  ///< the scene's file
   kResetCamera,
   kCopyCamera,
   kPasteCamera,
   kSingleStep,
-  kDismiss,      ///< the problem
+  kDismiss,  ///< the problem
   kUnpick,
   kExportCut
 };

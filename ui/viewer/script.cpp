@@ -17,8 +17,8 @@ struct Verb {
   std::string_view name;
   std::size_t words;  ///< with the verb
 };
-constexpr Verb kVerbs[] = {{"size", 3}, {"click", 2},      {"set", 3},    {"drag", 6}, {"scroll", 4}, {"key", 2}, {"pick", 3},
-                           {"drop", 2}, {"screenshot", 2}, {"expect", 3}, {"quit", 1}};
+constexpr Verb kVerbs[] = {{"size", 3}, {"click", 2}, {"set", 3},        {"drag", 6},   {"scroll", 4}, {"key", 2},
+                           {"pick", 3}, {"drop", 2},  {"screenshot", 2}, {"expect", 3}, {"quit", 1}};
 
 std::string placeOf(const std::filesystem::path& file, int line) {
   return file.string() + ":" + std::to_string(line);
@@ -211,7 +211,8 @@ void ScriptPlayer::expect(const ScriptAction& action, Stage& stage) const {
   const std::string shown = item(action, stage, action.words[1]).value;
   const auto a = asNumber(shown), b = asNumber(action.words[2]);
   // Sliders show six digits.
-  const bool equal = a && b ? std::abs(*a - *b) <= 1e-5 * std::max(std::abs(*a), std::abs(*b)) : shown == action.words[2];
+  const bool equal =
+      a && b ? std::abs(*a - *b) <= 1e-5 * std::max(std::abs(*a), std::abs(*b)) : shown == action.words[2];
   if (!equal) fail(action, "'" + action.words[1] + "' is '" + shown + "' and not '" + action.words[2] + "'");
 }
 

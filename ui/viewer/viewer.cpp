@@ -26,8 +26,8 @@ Vec2 mousePosition() {
 }
 
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
-  const bool sameCamera = a.camera == b.camera && a.view.has_value() == b.view.has_value() &&
-                          (!a.view || sameView(*a.view, *b.view));
+  const bool sameCamera =
+      a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || sameView(*a.view, *b.view));
   return sameCamera && a.width == b.width && a.height == b.height && a.maxDepth == b.maxDepth &&
          a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler;
 }
@@ -130,7 +130,8 @@ void Viewer::frame(double seconds) {
 
   gui_.beginFrame(size, seconds, events);
   shown_ = Widgets();
-  const float panel = state_.showUi ? std::min(kPanelLetters * ImGui::GetFontSize(), 0.45f * static_cast<float>(size.width)) : 0;
+  const float panel =
+      state_.showUi ? std::min(kPanelLetters * ImGui::GetFontSize(), 0.45f * static_cast<float>(size.width)) : 0;
   area_ = {{panel, 0}, {static_cast<float>(size.width) - panel, static_cast<float>(size.height)}};
   if (state_.showUi) drawPanels();
   if (state_.showHelp) drawHelp(state_.showHelp);
@@ -163,40 +164,49 @@ void Viewer::frame(double seconds) {
 void Viewer::drawPanels() {
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(area_.origin.x, area_.size.y));
-  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                      ImGuiWindowFlags_NoBringToFrontOnFocus;
   ImGui::Begin("panels", nullptr, kFixed);
   const ViewerFacts facts{*scene_, *snapshot_, overlay(), stored_, problem_};
   run(drawProblem(shown_, facts));
   if (loading_.valid()) ImGui::TextWrapped("loading %s …", loadingFile_.filename().string().c_str());
+  run(drawInspectorPanel(shown_, facts, state_));
   run(drawRenderPanel(shown_, facts, state_));
   run(drawViewPanel(shown_, facts, state_));
   drawOverlayPanel(shown_, facts, state_);
-  run(drawInspectorPanel(shown_, facts, state_));
   drawStatisticsPanel(shown_, facts);
   ImGui::End();
 }
 
 void Viewer::run(ViewerCommand command) {
   switch (command) {
-    case ViewerCommand::kNone: return;
-    case ViewerCommand::kStore: return storePicture();
+    case ViewerCommand::kNone:
+      return;
+    case ViewerCommand::kStore:
+      return storePicture();
     case ViewerCommand::kForget:
       view_.clearImage(ImageSlot::kB);
       stored_ = false;
       return;
-    case ViewerCommand::kSave: return guarded([this] { save(); });
-    case ViewerCommand::kReload: return open(options_.file);
+    case ViewerCommand::kSave:
+      return guarded([this] { save(); });
+    case ViewerCommand::kReload:
+      return open(options_.file);
     case ViewerCommand::kResetCamera:
       state_.settings.view.reset();
       pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
       return;
-    case ViewerCommand::kCopyCamera: return window_.setClipboard(cameraToJson(viewOf(*scene_, state_.settings)));
+    case ViewerCommand::kCopyCamera:
+      return window_.setClipboard(cameraToJson(viewOf(*scene_, state_.settings)));
     case ViewerCommand::kPasteCamera:
       return guarded([this] { setPose(poseOf(cameraFromJson(window_.clipboard()), scene_->bounds)); });
-    case ViewerCommand::kSingleStep: return session_.singleStep();
-    case ViewerCommand::kDismiss: return problem_.clear();
-    case ViewerCommand::kUnpick: return state_.pick.reset();
+    case ViewerCommand::kSingleStep:
+      return session_.singleStep();
+    case ViewerCommand::kDismiss:
+      return problem_.clear();
+    case ViewerCommand::kUnpick:
+      return state_.pick.reset();
     case ViewerCommand::kExportCut:
       if (overlay_ && overlay_->inspection) window_.setClipboard(toJson(*overlay_->inspection).dump(2));
       return;
@@ -237,7 +247,8 @@ ViewerCommand Viewer::readKeys(double seconds) {
   if (gui_.keyPressed(Key::kG)) state_.overlay.grid = !state_.overlay.grid;
   if (gui_.keyPressed(Key::kP)) state_.paused = !state_.paused;
   if (gui_.keyPressed(Key::kEqual, true) || gui_.keyPressed(Key::kKeypadAdd, true)) state_.display.exposure += 0.25f;
-  if (gui_.keyPressed(Key::kMinus, true) || gui_.keyPressed(Key::kKeypadSubtract, true)) state_.display.exposure -= 0.25f;
+  if (gui_.keyPressed(Key::kMinus, true) || gui_.keyPressed(Key::kKeypadSubtract, true))
+    state_.display.exposure -= 0.25f;
   if (gui_.keyPressed(Key::kEscape)) return ViewerCommand::kUnpick;
   if (gui_.keyPressed(Key::kPeriod)) return ViewerCommand::kSingleStep;
   if (gui_.keyPressed(Key::kT)) return ViewerCommand::kStore;
@@ -258,8 +269,7 @@ void Viewer::fly(double seconds) {
   const auto axis = [&](Key plus, Key minus) {
     return static_cast<float>(gui_.keyDown(plus)) - static_cast<float>(gui_.keyDown(minus));
   };
-  const Vec3 along(axis(Key::kD, Key::kA),
-                   axis(Key::kE, Key::kQ) + axis(Key::kSpace, Key::kC), axis(Key::kW, Key::kS));
+  const Vec3 along(axis(Key::kD, Key::kA), axis(Key::kE, Key::kQ) + axis(Key::kSpace, Key::kC), axis(Key::kW, Key::kS));
   if (along == Vec3(0)) return;
   flying_ = true;
   const float speed = kFlySpeed * pose_.focus * (gui_.shiftDown() ? 10.0f : 1.0f);
@@ -296,12 +306,14 @@ void Viewer::focusAt(const Vec2& position) {
   const auto pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
   if (!pixel) return;
   // One ray: the session answers within a pass.
-  const auto distance = session_.inspect([pixel = *pixel](const SessionView& view) {
-    const Ray ray = cameraRay(viewOf(view.scene, view.settings), Vec2(pixel) + 0.5f,
-                              {view.settings.width, view.settings.height});
-    const auto hit = view.accel.intersect(ray, 0);
-    return hit ? std::optional(hit->t) : std::nullopt;
-  }).get();
+  const auto distance = session_
+                            .inspect([pixel = *pixel](const SessionView& view) {
+                              const Ray ray = cameraRay(viewOf(view.scene, view.settings), Vec2(pixel) + 0.5f,
+                                                        {view.settings.width, view.settings.height});
+                              const auto hit = view.accel.intersect(ray, 0);
+                              return hit ? std::optional(hit->t) : std::nullopt;
+                            })
+                            .get();
   if (distance) pose_.focus = *distance;
 }
 
@@ -342,8 +354,8 @@ void Viewer::requestOverlay() {
   }
   if (overlays_.busy() || snapshot_->generation < generation_) return;
   // Anew when something else is asked for, and whenever the number of samples has grown by a tenth.
-  const bool current = overlay_ && overlay_->generation == snapshot_->generation && sameOverlay(overlayState_, state_) &&
-                       10 * snapshot_->passes <= 11 * overlayPasses_;
+  const bool current = overlay_ && overlay_->generation == snapshot_->generation &&
+                       sameOverlay(overlayState_, state_) && 10 * snapshot_->passes <= 11 * overlayPasses_;
   if (current) return;
   overlayState_ = state_;
   overlayPasses_ = snapshot_->passes;
@@ -360,8 +372,8 @@ void Viewer::refreshOverlay() {
 }
 
 void Viewer::showOverlay() {
-  const bool sameColours = overlayState_.overlay.opacity == state_.overlay.opacity &&
-                           overlayState_.overlay.scale == state_.overlay.scale;
+  const bool sameColours =
+      overlayState_.overlay.opacity == state_.overlay.opacity && overlayState_.overlay.scale == state_.overlay.scale;
   if (!overlay_) {
     view_.clearOverlay();
     return;
@@ -401,9 +413,11 @@ void Viewer::drawOverPicture() {
     list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_WHITE, 0, 1.5f);
   }
   if (stored_ && !flip_) {
-    const float x = placement_.origin.x + placement_.scale * static_cast<float>(snapshot_->width) * state_.display.split;
+    const float x =
+        placement_.origin.x + placement_.scale * static_cast<float>(snapshot_->width) * state_.display.split;
     const float height = placement_.scale * static_cast<float>(snapshot_->height);
-    list->AddLine(ImVec2(x, placement_.origin.y), ImVec2(x, placement_.origin.y + height), IM_COL32(255, 255, 255, 160));
+    list->AddLine(ImVec2(x, placement_.origin.y), ImVec2(x, placement_.origin.y + height),
+                  IM_COL32(255, 255, 255, 160));
   }
 }
 

@@ -27,11 +27,11 @@ using SceneLoader = std::function<std::shared_ptr<const Scene>(const std::filesy
 
 struct ViewerOptions {
   ViewerState state;
-  float uiScale = 1;                                 ///< [0.5, 4]
-  std::filesystem::path file;                        ///< of the scene, for F5
-  std::filesystem::path saveFolder = ".";            ///< of F12
-  std::shared_ptr<const ImageRgb> reference;         ///< for the overlay `error`; may be null
-  std::optional<std::uint64_t> sizeSettleFrames = 3; ///< frames of one size before the rendering follows the window
+  float uiScale = 1;                                  ///< [0.5, 4]
+  std::filesystem::path file;                         ///< of the scene, for F5
+  std::filesystem::path saveFolder = ".";             ///< of F12
+  std::shared_ptr<const ImageRgb> reference;          ///< for the overlay `error`; may be null
+  std::optional<std::uint64_t> sizeSettleFrames = 3;  ///< frames of one size before the rendering follows the window
 };
 
 class Viewer {
@@ -114,8 +114,8 @@ class Viewer {
   std::shared_ptr<const Snapshot> snapshot_;
   bool stored_ = false;
   std::optional<OverlayPicture> overlay_;
-  ViewerState overlayState_;           ///< what the newest request asked for
-  std::uint64_t overlayPasses_ = 0;    ///< of the snapshot at that request
+  ViewerState overlayState_;         ///< what the newest request asked for
+  std::uint64_t overlayPasses_ = 0;  ///< of the snapshot at that request
   bool overlayDrawn_ = false;
   std::string problem_;
   std::future<std::shared_ptr<const Scene>> loading_;

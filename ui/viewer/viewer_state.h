@@ -29,7 +29,7 @@ struct ViewerState {
   bool paused = false;
   ImageViewSettings display;
   OverlayChoice overlay;
-  std::optional<glm::ivec2> pick;  ///< image pixel whose cell is inspected
+  std::optional<glm::ivec2> pick;             ///< image pixel whose cell is inspected
   std::optional<std::size_t> hoveredCluster;  ///< row of the inspector under the pointer
   bool showUi = true;
   bool showHelp = false;

@@ -1,0 +1,223 @@
+#include "ui/viewer/viewer.h"
+
+#include "renderer/base/error.h"
+#include "renderer/base/rng.h"
+#include "renderer/scene/load_scene.h"
+#include "renderer/trace/renderer.h"
+#include "tests/support/depth.h"
+#include "tests/support/scenes.h"
+#include "tests/support/temporary_directory.h"
+#include "ui/viewer/script.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace cellcut::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// The viewer in memory on a small stage of all kinds of light, played by scripts as a person plays it.
+class ViewerTest : public testing::Test {
+ protected:
+  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {900, 1400}})), scene_(sceneOf(40)) {
+    ViewerOptions options;
+    options.state.settings.maxDepth = 1;
+    options.state.settings.threads = 2;
+    options.state.passLimit = 2;
+    options.saveFolder = folder_.path();
+    viewer_ = std::make_unique<Viewer>(
+        *window_, scene_,
+        [](const std::filesystem::path& file) { return std::make_shared<const Scene>(loadScene(file)); }, options);
+  }
+  static std::shared_ptr<const Scene> sceneOf(int lights) {
+    return std::make_shared<const Scene>(stage(LightMix::kAll, lights, 3));
+  }
+  void play(const std::string& text) {
+    const std::filesystem::path file = folder_ / "script.txt";
+    std::ofstream(file) << text;
+    ScriptPlayer(file, readScript(file), folder_.path()).play(*viewer_, *window_);
+  }
+  std::string refusalOf(const std::string& text) {
+    try {
+      play(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryDirectory folder_;
+  std::unique_ptr<Window> window_;
+  std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<Viewer> viewer_;
+};
+
+TEST_F(ViewerTest, StrategiesAreToggledByListAndByKey) {
+  play(
+      "wait idle\nexpect Strategy cell-cut\nset Strategy power\nexpect Strategy power\nkey 6\nexpect Strategy "
+      "light-tree\nwait idle\n");
+  EXPECT_EQ(viewer_->state().settings.strategy, Strategy::kLightTree);
+  EXPECT_TRUE(viewer_->session().snapshot()->sampler.tree.has_value());
+  EXPECT_FALSE(viewer_->session().snapshot()->sampler.grid.has_value());
+}
+
+TEST_F(ViewerTest, ParametersAreSetAsAPersonSetsThem) {
+  play(
+      "set \"Max cut\" 40\nset Grid 5\nset \"In cluster\" intensity\nset \"Max depth\" 3\nset Exposure 2.5\nset \"Tone "
+      "map\" off\n"
+      "expect Quality custom\nset Quality preview\nexpect \"In cluster\" intensity\nexpect Exposure 2.5\nwait idle\n");
+  EXPECT_EQ(viewer_->state().settings.sampler, kQualities[0].settings);
+  EXPECT_EQ(viewer_->state().settings.maxDepth, 3);
+  EXPECT_FALSE(viewer_->state().display.toneMap);
+}
+
+TEST_F(ViewerTest, DragsScrollsAndKeysMoveTheCamera) {
+  play("wait idle\n");
+  const Camera start = viewOf(*scene_, viewer_->state().settings);
+  const std::vector<std::string> moves{"drag left 600 300 700 340", "drag right 600 300 700 340",
+                                       "drag middle 600 300 700 340", "scroll 600 300 2", "key W"};
+  for (const std::string& move : moves) {
+    play(move + "\nwait idle\n");
+    ASSERT_TRUE(viewer_->state().settings.view) << move;
+    EXPECT_FALSE(sameView(*viewer_->state().settings.view, start)) << move;
+    play("click Reset\nwait idle\n");
+    EXPECT_FALSE(viewer_->state().settings.view) << move;
+  }
+  // A view that was copied comes back.
+  play("drag left 600 300 700 340\nkey Ctrl+C\n");
+  const Camera copied = *viewer_->state().settings.view;
+  play("key R\nkey Ctrl+V\n");
+  EXPECT_LT(glm::length(viewer_->state().settings.view->position - copied.position), 1e-5f);
+}
+
+TEST_F(ViewerTest, EveryOverlayShowsItsValues) {
+  play("wait idle\n");
+  for (const OverlayName& overlay : kOverlays) {
+    play("set Show " + std::string(overlay.name) + "\nwait idle\n");
+    if (overlay.overlay == Overlay::kNone) continue;
+    ASSERT_NE(viewer_->overlay(), nullptr) << overlay.name;
+    EXPECT_EQ(viewer_->overlay()->overlay, overlay.overlay);
+    EXPECT_GT(viewer_->overlay()->statistics.count, 0u) << overlay.name;
+  }
+  ASSERT_TRUE(viewer_->overlay()->touched);
+  EXPECT_GT(viewer_->overlay()->touched->inside, 0u);
+}
+
+TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
+  play("wait idle\npick 200 700\nwait idle\n");
+  ASSERT_TRUE(viewer_->state().pick);
+  EXPECT_EQ(*viewer_->state().pick, glm::ivec2(200, 700));
+  ASSERT_NE(viewer_->overlay(), nullptr);
+  ASSERT_TRUE(viewer_->overlay()->inspection);
+  const PixelReport& report = *viewer_->overlay()->inspection;
+  ASSERT_FALSE(report.clusters.empty());
+  double sum = 0;
+  for (const ClusterRow& row : report.clusters) sum += row.cluster.probability;
+  EXPECT_NEAR(sum, 1, 1e-5);
+  play("click \"Copy cut\"\n");
+  EXPECT_EQ(nlohmann::json::parse(window_->clipboard()).at("clusters").size(), report.clusters.size());
+  play("key Escape\n");
+  EXPECT_FALSE(viewer_->state().pick);
+}
+
+TEST_F(ViewerTest, PanelsAndSheetAreToggled) {
+  play("expect Strategy cell-cut\nkey F2\n");
+  EXPECT_THAT(refusalOf("expect Strategy cell-cut\n"), HasSubstr("nothing is labelled"));
+  EXPECT_EQ(viewer_->imageArea().origin.x, 0);
+  play("key F2\nkey F1\n");
+  EXPECT_TRUE(viewer_->state().showHelp);
+  play("key F1\n");
+  EXPECT_FALSE(viewer_->state().showHelp);
+}
+
+TEST_F(ViewerTest, AStoredPictureIsSplitAndForgotten) {
+  play("wait idle\nclick Store\nset Split 0.25\nexpect Split 0.25\nkey 1\nwait idle\nclick Forget\n");
+  EXPECT_THAT(refusalOf("expect Split 0.25\n"), HasSubstr("nothing is labelled 'Split'"));
+}
+
+TEST_F(ViewerTest, ABadSceneIsRefusedAndTheOldOneGoesOn) {
+  std::ofstream(folder_ / "bad.glb") << "no scene";
+  play("wait idle\ndrop bad.glb\nwait idle\n");
+  EXPECT_THAT(viewer_->problem(), HasSubstr("bad.glb"));
+  play("key 2\nwait idle\nclick Dismiss\n");
+  EXPECT_EQ(viewer_->problem(), "");
+  EXPECT_EQ(viewer_->session().snapshot()->passes, 2u);
+}
+
+TEST_F(ViewerTest, SavesTheWindowAndTheRendering) {
+  play("wait idle\nkey F12\n");
+  EXPECT_THAT(viewer_->problem(), HasSubstr("saved"));
+  std::size_t exr = 0, png = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+    exr += entry.path().extension() == ".exr";
+    png += entry.path().extension() == ".png";
+  }
+  EXPECT_EQ(exr, 1u);
+  EXPECT_EQ(png, 1u);
+}
+
+TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
+  EXPECT_THAT(refusalOf("wait idle\nexpect Strategy power\n"), HasSubstr("script.txt:2"));
+  EXPECT_THAT(refusalOf("jump\n"), HasSubstr("no action 'jump'"));
+  EXPECT_THAT(refusalOf("click \"Max\n"), HasSubstr("a quote has no end"));
+  EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
+  EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
+}
+
+TEST_F(ViewerTest, RandomEditsEndWithTheirOwnPicture) {
+  Rng rng(7);
+  const std::size_t edits = sampleShare(byDepth(320, 10'000));
+  for (std::size_t i = 0; i < edits; ++i) {
+    ViewerState& state = viewer_->state();
+    switch (rng.below(8)) {
+      case 0:
+        state.settings.strategy = kStrategies[rng.below(kStrategies.size())].strategy;
+        break;
+      case 1:
+        state.settings.sampler.maxCut = 2 + static_cast<int>(rng.below(60));
+        break;
+      case 2:
+        state.settings.sampler.gridResolution = 1 + static_cast<int>(rng.below(40));
+        break;
+      case 3:
+        state.settings.maxDepth = static_cast<int>(rng.below(4));
+        break;
+      case 4:
+        state.overlay.overlay = static_cast<Overlay>(rng.below(kOverlays.size()));
+        break;
+      case 5:
+        state.pick = glm::ivec2(static_cast<int>(rng.below(500)), static_cast<int>(rng.below(500)));
+        break;
+      case 6:
+        window_->resize({300 + static_cast<int>(rng.below(100)), 200 + static_cast<int>(rng.below(100))});
+        break;
+      case 7:
+        state.settings.view = dollied(poseOf(scene_->cameras[0], scene_->bounds), rng.uniform(-1, 1)).camera;
+        break;
+    }
+    viewer_->frame(1.0 / 60);
+  }
+  viewer_->state().overlay = {};
+  viewer_->state().pick.reset();
+  play("wait idle\n");
+  const std::shared_ptr<const Snapshot> shown = viewer_->session().snapshot();
+  RenderSettings settings = viewer_->state().settings;
+  EXPECT_EQ(shown->width, settings.width);
+  EXPECT_EQ(viewer_->problem(), "");
+  EXPECT_EQ(shown->passes, 2u);
+  // The same picture as without a viewer; cells depend on the pilot's camera alone, which stayed.
+  Renderer renderer(*scene_, settings);
+  const std::atomic<bool> never{false};
+  for (int pass = 0; pass < 2; ++pass) renderer.renderPass(never);
+  const ImageRgb expected = renderer.film().mean();
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) different += expected[i] != (*shown->radiance)[i];
+  EXPECT_EQ(different, 0u);
+}
+
+}  // namespace
+}  // namespace cellcut::test
