@@ -1,6 +1,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/sampling/cell_grid.h"
 #include "tests/support/depth.h"
+#include "tests/support/own_threads.h"
 #include "tests/support/scenes.h"
 
 #include <array>
@@ -42,6 +43,7 @@ class CellTableOnThreads : public testing::Test {
     findCut(trees, region, {0, 20}, clusters);
     return Cut(trees, region, clusters);
   }
+  OnlyOwnThreads onlyOwnThreads;
   const Scene scene = stage(LightMix::kAll, 100, 4);
   const Lights lights{scene};
   const LightTrees trees{lights};

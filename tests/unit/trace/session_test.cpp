@@ -3,6 +3,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
+#include "tests/support/own_threads.h"
 #include "tests/support/strategies.h"
 
 #include <map>
@@ -10,7 +11,6 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 namespace cellcut::test {
 namespace {
@@ -73,10 +73,7 @@ class Session : public testing::Test {
   SessionInput input;
 
  private:
-#ifdef __SANITIZE_THREAD__
-  // ThreadSanitizer does not see how TBB's own threads hand over their work; without them all is ours.
-  const tbb::global_control noThreadsOfTbb_{tbb::global_control::max_allowed_parallelism, 1};
-#endif
+  OnlyOwnThreads onlyOwnThreads_;
 };
 
 class SessionStrategies : public Session, public testing::WithParamInterface<SamplerVariant> {};
