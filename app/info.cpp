@@ -2,10 +2,12 @@
 #include "app/command_line.h"
 #include "app/report.h"
 #include "app/verbs.h"
-#include "renderer/lights/lights.h"
+#include "renderer/lights/light_bounds.h"
 #include "renderer/scene/load_scene.h"
 
+#include <limits>
 #include <memory>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -40,17 +42,41 @@ Json boundsOf(const Scene& scene) {
           {"upper", toJson(glm::dvec3(scene.bounds.upper) + scene.origin)}};
 }
 
-Json notesOf(const Scene& scene) {
-  Json notes = Json::array();
-  if (scene.generator.find("Blender") != std::string::npos) {
-    notes.push_back(
-        "written by Blender, which multiplies point, spot and directional lights by 683 and emissive surfaces not: "
-        "render with --punctual-scale blender");
+/// Of the strongest light to the faintest, each by its peak intensity; local and distant ones apart, for W/sr and W/m² do
+/// not compare. 1 without lights.
+double intensityRatio(const Lights& lights) {
+  double ratio = 1;
+  const std::size_t distant = static_cast<std::size_t>(lights.idOf(LightKind::kDirectional, 0));
+  for (const auto& [first, last] : {std::pair(std::size_t{0}, distant), std::pair(distant, lights.size())}) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const double intensity = peakIntensity(lights, static_cast<LightId>(i));
+      if (!(intensity > 0)) continue;
+      least = std::min(least, intensity);
+      most = std::max(most, intensity);
+    }
+    if (most > 0) ratio = std::max(ratio, most / least);
   }
-  return notes;
+  return ratio;
+}
+
+/// Up to this ratio every light of a scene is proved to be reachable.
+constexpr double kProvedRatio = 1e12;
+
+Json warningsOf(const Scene& scene, double ratio) {
+  Json warnings = scene.warnings;
+  if (ratio > kProvedRatio) {
+    std::ostringstream text;
+    text << "the strongest light is " << ratio << " times as intense as the faintest; beyond " << kProvedRatio
+         << " the faintest may never be chosen";
+    warnings.push_back(text.str());
+  }
+  return warnings;
 }
 
 Json describe(const Scene& scene) {
+  const Lights lights(scene);
+  const double ratio = intensityRatio(lights);
   Json info;
   info["meshes"] = scene.counts.meshes;
   info["instances"] = scene.counts.instances;
@@ -59,13 +85,13 @@ Json describe(const Scene& scene) {
   info["materials"] = scene.materials.size();
   info["textures"] = scene.textures.size();
   info["cameras"] = camerasOf(scene);
-  info["lights"] = toJson(Lights(scene).counts());
+  info["lights"] = toJson(lights.counts());
+  info["intensity_ratio"] = ratio;
   info["bounds"] = boundsOf(scene);
   info["origin"] = toJson(scene.origin);
   info["memory"] = {{"scene", scene.bytes()}, {"peak_rss", peakResidentBytes()}};
   info["generator"] = scene.generator;
-  info["notes"] = notesOf(scene);
-  info["warnings"] = scene.warnings;
+  info["warnings"] = warningsOf(scene, ratio);
   return info;
 }
 

@@ -51,6 +51,14 @@ const LightTree& treeOf(const LightTrees& trees, bool distant) {
   return distant ? trees.distant : trees.local;
 }
 
+/// Most lights of a cluster that is descended into. The nodes of larger ones are seldom in a cache: with 10⁶ lights
+/// choosing by intensity gives 14 % more noise in two thirds of the time.
+constexpr std::uint32_t kMaxDescentLights = 64;
+
+bool descends(InCluster inCluster, const LightTree& tree, NodeId node) {
+  return inCluster == InCluster::kDescent && tree.node(node).leafCount() <= kMaxDescentLights;
+}
+
 }  // namespace
 
 std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
@@ -109,7 +117,7 @@ std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, c
   }
   const auto [node, distant, firstLeaf, estimate] = cut.members()[chosen];
   const LightTree& tree = treeOf(trees, distant);
-  if (inCluster == InCluster::kDescent) {
+  if (descends(inCluster, tree, node)) {
     const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, point, u);
     if (!leaf) return std::nullopt;
     return SampledLight{tree.light(leaf->leaf), static_cast<float>(pmf * leaf->pmf)};
@@ -134,8 +142,8 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, In
   const double pmf = *member < cut.farCount() ? static_cast<double>(far.table().pmf(*member)) * (far.sum() / sum)
                                               : static_cast<double>(near.weight[*member - cut.farCount()]) / sum;
   const NodeId node = cut.members()[*member].node;
-  const double inside = inCluster == InCluster::kDescent ? pmfByDescent(tree, distant, node, point, leaf)
-                                                         : tree.pmfByIntensity(node, leaf);
+  const double inside = descends(inCluster, tree, node) ? pmfByDescent(tree, distant, node, point, leaf)
+                                                        : tree.pmfByIntensity(node, leaf);
   return static_cast<float>(pmf * inside);
 }
 

@@ -13,7 +13,7 @@ namespace cellcut {
 /// How a light is chosen inside a cluster.
 enum class InCluster : std::uint8_t {
   kIntensity,  ///< proportional to J (Vévoda and Křivánek 2016)
-  kDescent,    ///< down the tree by importance at the point (Conty Estevez and Kulla 2018)
+  kDescent,    ///< small clusters down the tree by importance at the point (Conty Estevez and Kulla 2018)
 };
 
 /// Of the strategies with cuts; the others ignore them.

@@ -20,12 +20,19 @@ struct Place {
   Vec3 n;
   const Accel* occluders;
 
-  /// Share of a ray along `d` to `end` (1 is the tip of d) that arrives: 0 or 1. It starts and stops a ten-thousandth
-  /// off both ends; the geometry of the tests keeps its distance.
-  double visibility(const DVec3& d, double end = 0.9999) const {
-    if (!occluders) return 1;
-    const Vec3 origin(DVec3(p) + 1e-4 * DVec3(n));
-    return occluders->occluded({origin, Vec3(d), static_cast<float>(end)}, 0) ? 0 : 1;
+  /// Share of what leaves p + d that arrives at p: 0 or 1. The ray starts a millionth off p, ten roundings of a float
+  /// there (farther off, shadows of other facets would have moved), and stops a ten-thousandth of its length before the
+  /// light. It is aimed from where it starts: parallel to d it would end behind a light that is seen at a grazing angle.
+  double visibility(const DVec3& d) const { return !occluders || !blocked(d - kOffset * DVec3(n), 0.9999f) ? 1 : 0; }
+  /// The same for what comes from infinity.
+  double visibilityTowards(const DVec3& direction) const {
+    return !occluders || !blocked(direction, kInfinity) ? 1 : 0;
+  }
+
+ private:
+  static constexpr double kOffset = 1e-6;
+  bool blocked(const DVec3& along, float end) const {
+    return occluders->occluded({Vec3(DVec3(p) + kOffset * DVec3(n)), Vec3(along), end}, 0);
   }
 };
 
@@ -85,8 +92,7 @@ DVec3 tileIrradiance(const EnvironmentLight& light, std::size_t tile, const Plac
                             std::sin(pi * v) * std::sin(azimuth));
       const double cosine = glm::dot(direction, DVec3(place.n));
       if (cosine <= 0) continue;
-      sum += referenceEnvironment(environment, direction) *
-             (solidAngle * cosine * place.visibility(direction, std::numeric_limits<double>::infinity()));
+      sum += referenceEnvironment(environment, direction) * (solidAngle * cosine * place.visibilityTowards(direction));
     }
   }
   return sum;
@@ -128,8 +134,7 @@ DVec3 referenceIrradiance(const Lights& lights, LightId light, const Vec3& p, co
     case LightKind::kDirectional: {
       const DirectionalLight& directional = scene.directionalLights[i];
       const DVec3 d = -DVec3(directional.axis);
-      return DVec3(directional.irradiance) * std::max(0.0, glm::dot(d, DVec3(n))) *
-             place.visibility(d, std::numeric_limits<double>::infinity());
+      return DVec3(directional.irradiance) * std::max(0.0, glm::dot(d, DVec3(n))) * place.visibilityTowards(d);
     }
     case LightKind::kEnvironment:
       return tileIrradiance(*lights.environment(), i, place, resolution);

@@ -4,6 +4,7 @@
 #include "renderer/sampling/sampler_settings.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/recipes/recipe.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
@@ -181,6 +182,25 @@ TEST_F(VerbsOnAScene, InfoCountsWhatTheRecipeWasAskedFor) {
   }
   EXPECT_GT(json.at("triangles"), 0);
   EXPECT_FALSE(json.at("cameras").empty());
+  EXPECT_GE(json.at("intensity_ratio"), 1);
+  EXPECT_TRUE(json.at("warnings").empty());
+}
+
+TEST(CommandLine, InfoWarnsOfLightsThatAreMoreThanTwelveDecadesApart) {
+  const test::TemporaryDirectory folder;
+  for (const double strongest : {1e11, 1e13}) {
+    test::GltfBuilder file;
+    for (const double intensity : {1.0, strongest}) {
+      file.addRoot({{"extensions", file.addLight({{"type", "point"}, {"intensity", intensity}})}});
+    }
+    const std::string path = (folder / "two.glb").string();
+    file.writeGlb(path);
+    const Outcome outcome = run({"info", path});
+    ASSERT_EQ(outcome.code, kDone) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_NEAR(json.at("intensity_ratio").get<double>() / strongest, 1, 1e-6);
+    EXPECT_EQ(json.at("warnings").dump().find("faintest") != std::string::npos, strongest > 1e12);
+  }
 }
 
 TEST_F(VerbsOnAScene, ReportHasEveryKeyOfTheContract) {
