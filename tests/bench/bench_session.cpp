@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int kPasses = 3;
-constexpr int kMoves = 40;
+constexpr int kMoves = 20;
 
 /// Wakes whoever waits for a snapshot, as a UI's event loop would be.
 class Bell {

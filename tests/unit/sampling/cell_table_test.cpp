@@ -43,7 +43,7 @@ class CellTableOnThreads : public testing::Test {
     findCut(trees, region, {0, 20}, clusters);
     return Cut(trees, region, clusters);
   }
-  const OnlyOwnThreads onlyOwnThreads;
+  OnlyOwnThreads onlyOwnThreads;
   const Scene scene = stage(LightMix::kAll, 100, 4);
   const Lights lights{scene};
   const LightTrees trees{lights};

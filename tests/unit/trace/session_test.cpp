@@ -73,7 +73,7 @@ class Session : public testing::Test {
   SessionInput input;
 
  private:
-  const OnlyOwnThreads onlyOwnThreads_;
+  OnlyOwnThreads onlyOwnThreads_;
 };
 
 class SessionStrategies : public Session, public testing::WithParamInterface<SamplerVariant> {};
