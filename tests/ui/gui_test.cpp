@@ -222,7 +222,7 @@ TEST(Gui, ShowsATextureOfOurs) {
   texture.upload(image);
   Gui gui(*canvas.window, {});
   gui.beginFrame({60, 60}, kFrameSeconds, {});
-  const auto id = (ImTextureID) static_cast<std::intptr_t>(texture.name());
+  const auto id = (ImTextureID) static_cast<std::intptr_t>(texture.name());  // NOLINT: a pointer in ImGui's eyes
   ImGui::GetForegroundDrawList()->AddImage(id, ImVec2(10, 10), ImVec2(50, 30));
   canvas.framebuffer.clear(Vec4(0, 0, 0, 1));
   gui.endFrame();
