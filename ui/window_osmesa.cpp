@@ -36,7 +36,8 @@ class OsmesaLibrary {
  public:
   OsmesaLibrary() {
     for (const char* const name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
-      handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+      // It stays loaded: what it allocates once would be lost with it each time.
+      handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
       if (handle_ != nullptr) return;
     }
     throw GlError("OSMesa: libOSMesa.so.8 is not installed (Debian: libosmesa6)");

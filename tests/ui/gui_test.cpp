@@ -54,7 +54,25 @@ TEST_F(GuiTest, DrawsItsWindowWhereItIsAndNothingElse) {
   EXPECT_EQ(picture.at(10, 10), Rgba8(0, 0, 0, 255));
   EXPECT_EQ(picture.at(230, 150), Rgba8(0, 0, 0, 255));
   EXPECT_NE(picture.at(100, 120), Rgba8(0, 0, 0, 255));
+  EXPECT_NE(picture.at(100, 25), Rgba8(0, 0, 0, 255));
   EXPECT_NE(picture.at(100, 25), picture.at(100, 120)) << "the title is at the top";
+}
+
+TEST_F(GuiTest, CutsItsTextAtTheWindowsEdge) {
+  frame([] {});
+  frame([] {
+    for (int i = 0; i < 20; ++i)
+      ImGui::TextUnformatted("MMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMMM");
+  });
+  const ImageRgba8 picture = canvas.framebuffer.read();
+  int brightInside = 0;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) {
+      const bool inside = x >= 20 && x < 220 && y >= 20 && y < 140;
+      EXPECT_TRUE(inside || picture.at(x, y) == Rgba8(0, 0, 0, 255)) << x << ' ' << y;
+      if (inside && y > 45) brightInside += picture.at(x, y).r > 150 ? 1 : 0;
+    }
+  EXPECT_GT(brightInside, 500);  // most of five lines of text
 }
 
 TEST_F(GuiTest, AButtonIsClickedOnceByAClickWithinOneFrame) {
@@ -222,7 +240,7 @@ TEST(Gui, ShowsATextureOfOurs) {
   texture.upload(image);
   Gui gui(*canvas.window, {});
   gui.beginFrame({60, 60}, kFrameSeconds, {});
-  const auto id = (ImTextureID) static_cast<std::intptr_t>(texture.name());
+  const auto id = (ImTextureID) static_cast<std::intptr_t>(texture.name());  // NOLINT: a pointer in ImGui's eyes
   ImGui::GetForegroundDrawList()->AddImage(id, ImVec2(10, 10), ImVec2(50, 30));
   canvas.framebuffer.clear(Vec4(0, 0, 0, 1));
   gui.endFrame();
