@@ -20,7 +20,8 @@ std::vector<float> interleaved(const Image<DVec3>& image) {
 
 }  // namespace
 
-Film::Film(int width, int height, bool auxiliary) : sums_(width, height), pendingRadiance_(width, height) {
+Film::Film(int width, int height, bool auxiliary)
+    : sums_(width, height), pendingRadiance_(width, height), badCounts_(width, height) {
   if (auxiliary) {
     auxiliary_ = Image<Auxiliary>(width, height);
     pendingAuxiliary_ = Image<PendingAuxiliary>(width, height);
@@ -42,6 +43,8 @@ void Film::commit() {
       if (!isFinite(radiance)) {
         const bool isNan = std::isnan(radiance.x) || std::isnan(radiance.y) || std::isnan(radiance.z);
         (isNan ? nan : inf).fetch_add(1, std::memory_order_relaxed);
+        std::uint16_t& count = badCounts_.at(x, y);
+        if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
         radiance = Vec3(0);
       }
       Sums& sums = sums_.at(x, y);
@@ -99,7 +102,7 @@ double Film::relativeError() const {
 }
 
 std::size_t Film::bytes() const {
-  return sums_.bytes() + auxiliary_.bytes() + pendingRadiance_.bytes() + pendingAuxiliary_.bytes();
+  return sums_.bytes() + auxiliary_.bytes() + pendingRadiance_.bytes() + pendingAuxiliary_.bytes() + badCounts_.bytes();
 }
 
 LayeredImage Film::layers() const {
