@@ -39,19 +39,30 @@ OpenedWindow windowFor(const ViewOptions& options) {
   return openAnyWindow(settings);
 }
 
+/// Frames that nobody asked for by input take at most this share of the time: OpenGL by software needs the cores that
+/// render.
+constexpr double kIdleShare = 0.1;
+
 void runUntilClosed(Viewer& viewer, Window& window) {
   using Clock = std::chrono::steady_clock;
-  Clock::time_point last = Clock::now();
+  const auto secondsSince = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
+  Clock::time_point began = Clock::now(), ended = began;
+  double frameSeconds = 0;
   while (!window.shouldClose()) {
     const double sleep = viewer.sleepSeconds();
-    if (sleep > 0) {
+    window.pollEvents();
+    if (sleep > 0 && !window.hasInput()) {
       window.waitEvents(sleep);
-    } else {
-      window.pollEvents();
+      const double rest = frameSeconds * (1 / kIdleShare - 1);
+      while (!window.hasInput() && !window.shouldClose() && secondsSince(ended) < rest) {
+        window.waitEvents(rest - std::min(rest, secondsSince(ended)));
+      }
     }
-    const Clock::time_point now = Clock::now();
-    viewer.frame(std::chrono::duration<double>(now - last).count());
-    last = now;
+    const double elapsed = secondsSince(began);
+    began = Clock::now();
+    viewer.frame(elapsed);
+    ended = Clock::now();
+    frameSeconds = std::chrono::duration<double>(ended - began).count();
   }
 }
 

@@ -59,6 +59,9 @@ class Window {
   /// Files that were dropped onto the window since the last call.
   std::vector<std::filesystem::path> takeDroppedFiles();
 
+  /// Something waits for takeEvents() or takeDroppedFiles().
+  bool hasInput() const { return !events_.empty() || !droppedFiles_.empty(); }
+
   /// Input as if a person had made it: the way of scripts and tests.
   void post(const InputEvent& event);
   void postDrop(std::filesystem::path file);
@@ -77,7 +80,6 @@ class Window {
 
  protected:
   Window() = default;
-  bool hasInput() const { return !events_.empty() || !droppedFiles_.empty(); }
 
  private:
   std::vector<InputEvent> events_;

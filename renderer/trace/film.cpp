@@ -20,7 +20,8 @@ std::vector<float> interleaved(const Image<DVec3>& image) {
 
 }  // namespace
 
-Film::Film(int width, int height, bool auxiliary) : sums_(width, height), pendingRadiance_(width, height) {
+Film::Film(int width, int height, bool auxiliary)
+    : sums_(width, height), pendingRadiance_(width, height), badCounts_(width, height) {
   if (auxiliary) {
     auxiliary_ = Image<Auxiliary>(width, height);
     pendingAuxiliary_ = Image<PendingAuxiliary>(width, height);
@@ -45,6 +46,8 @@ void Film::commitRow(int y) {
     if (!isFinite(radiance)) {
       const bool isNan = std::isnan(radiance.x) || std::isnan(radiance.y) || std::isnan(radiance.z);
       std::atomic_ref(isNan ? bad_.nan : bad_.inf).fetch_add(1, std::memory_order_relaxed);
+      std::uint16_t& count = badCounts_.at(x, y);
+      if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
       radiance = Vec3(0);
     }
     Sums& sums = sums_.at(x, y);
@@ -66,6 +69,7 @@ void Film::commitRow(int y) {
 void Film::clear() {
   passes_ = 0;
   bad_ = {};
+  std::fill(badCounts_.begin(), badCounts_.end(), std::uint16_t{0});
 }
 
 ImageRgb Film::mean() const {
@@ -110,7 +114,7 @@ double Film::relativeError() const {
 }
 
 std::size_t Film::bytes() const {
-  return sums_.bytes() + auxiliary_.bytes() + pendingRadiance_.bytes() + pendingAuxiliary_.bytes();
+  return sums_.bytes() + auxiliary_.bytes() + pendingRadiance_.bytes() + pendingAuxiliary_.bytes() + badCounts_.bytes();
 }
 
 LayeredImage Film::layers() const {

@@ -57,10 +57,13 @@ class Film {
   /// root; ε = 0.01 · (mean of the picture)² as in `compare`. Infinity with fewer than two passes.
   double relativeError() const;
   BadSamples badSamples() const { return bad_; }
+  /// Per pixel, NaN and infinite together; stays at 65535.
+  const Image<std::uint16_t>& badSampleCounts() const { return badCounts_; }
   std::size_t bytes() const;
   /// What a pixel of such a film takes, to know before it is made whether there is room.
   static std::size_t bytesPerPixel(bool auxiliary) {
-    return sizeof(Sums) + sizeof(Vec3) + (auxiliary ? sizeof(Auxiliary) + sizeof(PendingAuxiliary) : 0);
+    return sizeof(Sums) + sizeof(Vec3) + sizeof(std::uint16_t) +
+           (auxiliary ? sizeof(Auxiliary) + sizeof(PendingAuxiliary) : 0);
   }
 
   /// "" (RGB), "albedo" (RGB), "normal" (XYZ), "depth" (Z) and "error" (RGB, standard error of the mean); no metadata.
@@ -90,6 +93,7 @@ class Film {
   Image<PendingAuxiliary> pendingAuxiliary_;  ///< empty unless asked for
   std::uint64_t passes_ = 0;
   BadSamples bad_;
+  Image<std::uint16_t> badCounts_;
 };
 
 }  // namespace cellcut

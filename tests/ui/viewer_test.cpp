@@ -23,8 +23,9 @@ using testing::HasSubstr;
 /// The viewer in memory on a small stage of all kinds of light, played by scripts as a person plays it.
 class ViewerTest : public testing::Test {
  protected:
-  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {900, 1400}})), scene_(sceneOf(40)) {
+  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {400, 720}})), scene_(sceneOf(40)) {
     ViewerOptions options;
+    options.uiScale = 0.5f;  // all panels on a small picture, which llvmpipe draws quickly
     options.state.settings.maxDepth = 1;
     options.state.settings.threads = 2;
     options.state.passLimit = 2;
@@ -78,8 +79,8 @@ TEST_F(ViewerTest, ParametersAreSetAsAPersonSetsThem) {
 TEST_F(ViewerTest, DragsScrollsAndKeysMoveTheCamera) {
   play("wait idle\n");
   const Camera start = viewOf(*scene_, viewer_->state().settings);
-  const std::vector<std::string> moves{"drag left 600 300 700 340", "drag right 600 300 700 340",
-                                       "drag middle 600 300 700 340", "scroll 600 300 2", "key W"};
+  const std::vector<std::string> moves{"drag left 300 200 340 220", "drag right 300 200 340 220",
+                                       "drag middle 300 200 340 220", "scroll 300 200 2", "key W"};
   for (const std::string& move : moves) {
     play(move + "\nwait idle\n");
     ASSERT_TRUE(viewer_->state().settings.view) << move;
@@ -88,7 +89,7 @@ TEST_F(ViewerTest, DragsScrollsAndKeysMoveTheCamera) {
     EXPECT_FALSE(viewer_->state().settings.view) << move;
   }
   // A view that was copied comes back.
-  play("drag left 600 300 700 340\nkey Ctrl+C\n");
+  play("drag left 300 200 340 220\nkey Ctrl+C\n");
   const Camera copied = *viewer_->state().settings.view;
   play("key R\nkey Ctrl+V\n");
   EXPECT_LT(glm::length(viewer_->state().settings.view->position - copied.position), 1e-5f);
@@ -108,9 +109,9 @@ TEST_F(ViewerTest, EveryOverlayShowsItsValues) {
 }
 
 TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
-  play("wait idle\npick 200 700\nwait idle\n");
+  play("wait idle\npick 90 350\nwait idle\n");
   ASSERT_TRUE(viewer_->state().pick);
-  EXPECT_EQ(*viewer_->state().pick, glm::ivec2(200, 700));
+  EXPECT_EQ(*viewer_->state().pick, glm::ivec2(90, 350));
   ASSERT_NE(viewer_->overlay(), nullptr);
   ASSERT_TRUE(viewer_->overlay()->inspection);
   const PixelReport& report = *viewer_->overlay()->inspection;

@@ -77,7 +77,8 @@ void OverlaySource::request(RenderSession& session, const OverlayChoice& choice,
                                .mean = &mean,
                                .standardError = &error,
                                .passes = view.film.passes(),
-                               .reference = reference.get()};
+                               .reference = reference.get(),
+                               .badSamples = &view.film.badSampleCounts()};
     if (choice.overlay != Overlay::kNone) {
       if (auto values = computeOverlay(choice.overlay, inputs, size, cache->stop)) {
         picture.values = std::move(*values);

@@ -202,7 +202,8 @@ void ScriptPlayer::wait(const ScriptAction& action, Stage& stage) const {
                            : !snapshot->preview && static_cast<double>(snapshot->passes) >= passes;
     if (stage.viewer.settled() && done) break;
     if (std::chrono::steady_clock::now() - start > kLongestWait) fail(action, "waited for ten minutes");
-    stage.window.waitEvents(0.01);
+    // Until there is news: frames drawn meanwhile would take the cores from the rendering.
+    stage.window.waitEvents(0.1);
   }
   frames(stage, 2);
 }

@@ -24,6 +24,7 @@ class OverlayRecount : public testing::Test {
     inputs.mean = &mean;
     inputs.standardError = &standardError;
     inputs.passes = run.film.passes();
+    inputs.badSamples = &run.film.badSampleCounts();
   }
   Image<float> overlay(Overlay which) const { return *computeOverlay(which, inputs, run.settings.size, kNever); }
   /// Where the centre of a pixel hits, not by the code under test.

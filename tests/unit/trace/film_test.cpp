@@ -50,6 +50,7 @@ TEST(Film, CountsSamplesThatAreNoNumbers) {
   add(film, Vec3(1, -kInfinity, nan));
   EXPECT_EQ(film.badSamples().nan, 2u);
   EXPECT_EQ(film.badSamples().inf, 1u);
+  EXPECT_EQ(film.badSampleCounts().at(0, 0), 3u);
   // They count as black, so that the mean stays a mean over all passes.
   EXPECT_EQ(film.mean().at(0, 0), Vec3(0.5f));
 }
