@@ -72,7 +72,7 @@ int showViewer(const ViewOptions& options, const Console& console) {
   }
   std::vector<ScriptAction> actions;
   if (options.script) actions = readScript(*options.script);
-  const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
+  // The window first: without a display nobody waits for a large scene in vain.
   const OpenedWindow opened = windowFor(options);
   if (!opened.notice.empty()) {
     // Nobody would see what goes on in memory, nor could end it.
@@ -82,6 +82,7 @@ int showViewer(const ViewOptions& options, const Console& console) {
     }
     console.err << "cellcut: " << opened.notice << '\n';
   }
+  const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
   Viewer viewer(*opened.window, scene, sceneLoader(options.common), viewerOptions(options.common, *scene));
   if (options.script) {
     ScriptPlayer(*options.script, std::move(actions), std::filesystem::current_path()).play(viewer, *opened.window);

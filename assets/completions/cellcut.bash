@@ -11,27 +11,61 @@ _cellcut_files() {
 
 _cellcut_words() { COMPREPLY+=($(compgen -W "$1" -- "$cur")); }
 
-_cellcut_render() {
+_cellcut_strategies='uniform power proportional cell-cut point-cut light-tree'
+_cellcut_picture_options='--quality --strategy --spp --time --noise --size --max-depth --seed --threads --camera --sampler
+  --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale
+  --environment-rotation --punctual-scale --help'
+
+# Values of the options that say how a picture is made; fails for any other word.
+_cellcut_picture_value() {
   case $prev in
-    -o | --output) _cellcut_files 'exr|pfm|png' ;;
-    --report) _cellcut_files 'json' ;;
     --environment) _cellcut_files 'exr|hdr' ;;
-    --strategy) _cellcut_words 'uniform power proportional cell-cut point-cut light-tree' ;;
+    --strategy) _cellcut_words "$_cellcut_strategies" ;;
     --quality) _cellcut_words 'preview balanced accurate' ;;
     --in-cluster) _cellcut_words 'intensity descent' ;;
     --sampler) _cellcut_words 'sobol independent' ;;
     --punctual-scale) _cellcut_words 'blender' ;;
     --size) _cellcut_words '1280x720 1920x1080 3840x2160' ;;
-    --spp | --time | --noise | --max-depth | --seed | --threads | --camera) ;;
-    --environment-scale | --environment-rotation) ;;
-    *)
-      if [[ $cur == -* ]]; then
-        _cellcut_words '-o --output --report --strategy --spp --time --noise --size --max-depth --seed --threads --camera
-          --sampler --quality --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale --environment-rotation --punctual-scale --help'
-      else
-        _cellcut_files 'gltf|glb|obj'
-      fi
-      ;;
+    --spp | --time | --noise | --max-depth | --seed | --threads | --camera | --threshold | --max-cut) ;;
+    --grid-resolution | --cell-memory | --environment-scale | --environment-rotation) ;;
+    *) return 1 ;;
+  esac
+}
+
+_cellcut_scene_or() { if [[ $cur == -* ]]; then _cellcut_words "$1"; else _cellcut_files 'gltf|glb|obj'; fi; }
+
+_cellcut_render() {
+  case $prev in
+    -o | --output) _cellcut_files 'exr|pfm|png' ;;
+    --report) _cellcut_files 'json' ;;
+    *) _cellcut_picture_value || _cellcut_scene_or "-o --output --report $_cellcut_picture_options" ;;
+  esac
+}
+
+_cellcut_view() {
+  case $prev in
+    --reference) _cellcut_files 'exr|pfm|hdr' ;;
+    --script) _cellcut_files 'txt' ;;
+    --gl) _cellcut_words 'egl osmesa' ;;
+    --ui-scale) ;;
+    *) _cellcut_picture_value ||
+      _cellcut_scene_or "--ui-scale --reference --gl --headless --script $_cellcut_picture_options" ;;
+  esac
+}
+
+_cellcut_screenshot() {
+  case $prev in
+    -o | --output) _cellcut_files 'png' ;;
+    --reference) _cellcut_files 'exr|pfm|hdr' ;;
+    --gl) _cellcut_words 'egl osmesa' ;;
+    --overlay) _cellcut_words 'none touched visits cut-size estimate tree-depth variance samples error nan' ;;
+    --overlay-scale) _cellcut_words 'linear log' ;;
+    --colormap) _cellcut_words 'viridis turbo magma' ;;
+    --split) _cellcut_words "$_cellcut_strategies" ;;
+    --ui-scale | --overlay-range | --overlay-opacity | --pick) ;;
+    *) _cellcut_picture_value ||
+      _cellcut_scene_or "-o --output --no-ui --overlay --overlay-range --overlay-scale --overlay-opacity --colormap --grid
+        --pick --split --ui-scale --reference --gl $_cellcut_picture_options" ;;
   esac
 }
 
@@ -48,10 +82,12 @@ _cellcut() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    _cellcut_words 'render compare generate info --help --version'
+    _cellcut_words 'view screenshot render compare generate info --help --version'
     return
   fi
   case ${COMP_WORDS[1]} in
+    view) _cellcut_view ;;
+    screenshot) _cellcut_screenshot ;;
     render) _cellcut_render ;;
     generate) _cellcut_generate ;;
     compare) if [[ $cur == -* ]]; then _cellcut_words '--help'; else _cellcut_files 'exr|pfm|hdr'; fi ;;

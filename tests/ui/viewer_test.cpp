@@ -120,7 +120,7 @@ TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
   for (const ClusterRow& row : report.clusters) sum += row.cluster.probability;
   EXPECT_NEAR(sum, 1, 1e-5);
   play("click \"Copy cut\"\n");
-  EXPECT_EQ(nlohmann::json::parse(window_->clipboard()).at("clusters").size(), report.clusters.size());
+  EXPECT_EQ(nlohmann::json::parse(window_->clipboard()).at("cut").at("clusters").size(), report.clusters.size());
   play("key Escape\n");
   EXPECT_FALSE(viewer_->state().pick);
 }

@@ -73,7 +73,7 @@ double Viewer::sleepSeconds() const {
 
 bool Viewer::settled() const {
   return !edited_ && !loading_.valid() && !overlays_.busy() && !gui_.inputPending() &&
-         session_.snapshot()->generation >= generation_;
+         session_.snapshot()->generation >= generation_ && (!overlayWanted() || overlayIsCurrent());
 }
 
 void Viewer::guarded(const std::function<void()>& action) {
@@ -346,17 +346,22 @@ void Viewer::applyEdits() {
   generation_ = session_.edit(std::move(input));
 }
 
+bool Viewer::overlayWanted() const {
+  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick;
+}
+
+bool Viewer::overlayIsCurrent() const {
+  // Anew when something else is asked for, and whenever the number of samples has grown by a tenth.
+  return overlay_ && overlay_->generation == snapshot_->generation && sameOverlay(overlayState_, state_) &&
+         10 * snapshot_->passes <= 11 * overlayPasses_;
+}
+
 void Viewer::requestOverlay() {
-  const bool wanted = state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick;
-  if (!wanted) {
+  if (!overlayWanted()) {
     overlay_.reset();
     return;
   }
-  if (overlays_.busy() || snapshot_->generation < generation_) return;
-  // Anew when something else is asked for, and whenever the number of samples has grown by a tenth.
-  const bool current = overlay_ && overlay_->generation == snapshot_->generation &&
-                       sameOverlay(overlayState_, state_) && 10 * snapshot_->passes <= 11 * overlayPasses_;
-  if (current) return;
+  if (overlays_.busy() || snapshot_->generation < generation_ || overlayIsCurrent()) return;
   overlayState_ = state_;
   overlayPasses_ = snapshot_->passes;
   overlays_.request(session_, state_.overlay, state_.pick, options_.reference);

@@ -83,6 +83,8 @@ class Viewer {
   void focusAt(const Vec2& position);
   void applyEdits();
   void followSize();
+  bool overlayWanted() const;
+  bool overlayIsCurrent() const;
   void requestOverlay();
   void showOverlay();
   void drawOverPicture();

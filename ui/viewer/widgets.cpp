@@ -99,7 +99,7 @@ bool Widgets::number(const char* label, double& value, const char* tooltip) {
 bool Widgets::choice(const char* label, int& index, std::span<const std::string_view> names, const char* tooltip) {
   nameOfField(label);
   const std::string current(names[static_cast<std::size_t>(index)]);
-  const bool open = ImGui::BeginCombo(hidden(label).c_str(), current.c_str());
+  const bool open = ImGui::BeginCombo(hidden(label).c_str(), current.c_str(), ImGuiComboFlags_HeightLarge);
   remember(WidgetItem::Kind::kChoice, label, current);
   explain(open ? nullptr : tooltip);
   if (!open) return false;
