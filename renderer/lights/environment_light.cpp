@@ -99,7 +99,7 @@ void EnvironmentLight::addTile(std::uint8_t level, std::uint32_t x, std::uint32_
   const float widest = v0 <= 0.5f && v1 >= 0.5f ? 1.0f : std::max(std::sin(kPi * v0), std::sin(kPi * v1));
   const float halfAngle = std::min(kPi, halfLatitude + kPi * (u1 - u0) * widest);
   tiles_.push_back({level, x, y, levels_[level].at(x, y),
-                    directionFromLatLong(environment_, {0.5f * (u0 + u1), 0.5f * (v0 + v1)}), std::cos(halfAngle)});
+                    directionFromLatLong(environment_, {0.5f * (u0 + u1), 0.5f * (v0 + v1)}), halfAngle});
 }
 
 EnvironmentLight::Sample EnvironmentLight::sample(std::size_t tile, Vec2 u) const {

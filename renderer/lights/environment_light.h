@@ -21,7 +21,7 @@ struct EnvironmentTile {
   std::uint32_t x, y;  ///< node at that level
   float weight;        ///< mean luminance × solid angle, W/m², > 0
   Vec3 axis;           ///< unit, middle of the tile
-  float cosHalfAngle;  ///< every direction of the tile is within this angle of the axis
+  float halfAngle;     ///< radians; every direction of the tile is within this angle of the axis
 };
 
 class EnvironmentLight {

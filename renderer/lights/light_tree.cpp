@@ -172,10 +172,9 @@ std::int16_t toSigned16(float x) {
   return static_cast<std::int16_t>(std::lround(x * 32767));
 }
 
-/// sin(θ/2) of an angle given by its cosine, rounded up to a multiple of 1/65535. `extra` radians are added first.
-std::uint16_t sinHalf16(float cosTheta, float extra) {
-  const float theta = std::min(kPi, std::acos(std::clamp(cosTheta, -1.0f, 1.0f)) + extra);
-  return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * theta) * 65535)));
+/// sin(θ/2), rounded up to a multiple of 1/65535.
+std::uint16_t sinHalf16(float theta) {
+  return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * std::min(kPi, theta)) * 65535)));
 }
 
 /// Largest angle between an axis and its 2 × 16-bit code: half a step in the octahedron's plane, stretched by at most
@@ -190,8 +189,8 @@ LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf,
       intensity_(bounds.intensity),
       axisX_(toSigned16(octahedral(bounds.axes.axis).x)),
       axisY_(toSigned16(octahedral(bounds.axes.axis).y)),
-      sinHalfO_(sinHalf16(bounds.axes.cosTheta, kAxisError)),
-      sinHalfE_(sinHalf16(bounds.cosThetaE, 0)),
+      sinHalfO_(sinHalf16(std::atan2(bounds.axes.sinTheta, bounds.axes.cosTheta) + kAxisError)),
+      sinHalfE_(sinHalf16(std::acos(std::clamp(bounds.cosThetaE, -1.0f, 1.0f)))),
       firstLeaf_(firstLeaf),
       leafCountAndSides_(leafCount | (bounds.twoSided ? kTwoSided : 0)) {}
 

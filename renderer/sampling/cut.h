@@ -51,10 +51,11 @@ struct Region {
 /// One cluster as seen from a region.
 struct Cluster {
   NodeId node;
-  bool distant;                ///< of the distant tree
-  float estimate;              ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
-  float meanDistance;          ///< metres; infinite for distant clusters
-  Vec3 direction;              ///< unit, from the region to the cluster
+  bool distant;         ///< of the distant tree
+  float estimate;       ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
+  float meanDistance;   ///< metres; infinite for distant clusters
+  float leastDistance;  ///< about that of the nearest lights that it may hold, metres; infinite for distant clusters
+  Vec3 direction;       ///< unit, from the region to the cluster
   float cosThetaU, sinThetaU;  ///< all directions from the region to the cluster are within θu of `direction`
 };
 
@@ -67,7 +68,7 @@ Cluster distantCluster(const LightTree& tree, NodeId id);
 /// contribute.
 float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n);
 
-/// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a
+/// Refines first, from the roots, what may have the largest estimate if all its light is where it is nearest. The result is ordered by leaves, local clusters first, and is a
 /// function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
 
@@ -129,7 +130,7 @@ class Cut {
   /// What the weight of a far cluster is made of.
   struct Far {
     float estimate;
-    Vec3 direction;
+    Vec3 meanDirection;  ///< of the directions within θu: shorter than 1, and 0 for a cluster all around the cell
     float cosThetaU, sinThetaU;
   };
   void addNear(const LightTreeNode& node, std::size_t i);
