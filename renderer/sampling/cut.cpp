@@ -277,11 +277,13 @@ FarChoice Cut::makeFarChoice(std::size_t facingIndex) const {
   return FarChoice(weights);
 }
 
-const FarChoice* Cut::keep(std::size_t facingIndex, FarChoice choice) const {
+Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
   auto mine = std::make_unique<const FarChoice>(std::move(choice));
   const FarChoice* kept = nullptr;
-  if (!choices_[facingIndex].compare_exchange_strong(kept, mine.get(), std::memory_order_acq_rel)) return kept;
-  return mine.release();
+  if (!choices_[facingIndex].compare_exchange_strong(kept, mine.get(), std::memory_order_acq_rel)) {
+    return {kept, false};
+  }
+  return {mine.release(), true};
 }
 
 std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {

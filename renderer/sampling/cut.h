@@ -121,8 +121,12 @@ class Cut {
   const FarChoice* farChoice(std::size_t facing) const {
     return choices_ ? choices_[facing].load(std::memory_order_acquire) : nullptr;
   }
-  /// Keeps a choice, unless another thread was first. Returns the one that is kept. \pre farCount() > 0
-  const FarChoice* keep(std::size_t facing, FarChoice choice) const;
+  struct Kept {
+    const FarChoice* choice;
+    bool isNew;  ///< the one that was given
+  };
+  /// Keeps a choice, unless another thread was first. \pre farCount() > 0
+  Kept keep(std::size_t facing, FarChoice choice) const;
 
   std::size_t bytes() const;
 
