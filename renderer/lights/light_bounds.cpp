@@ -33,7 +33,8 @@ LightBounds triangleBounds(const Scene& scene, const TriangleLight& light) {
 
 /// Emission of a distant light does not spread past its axes.
 LightBounds infiniteBounds(const Vec3& axis, float theta) {
-  return {.axes = {axis, std::cos(theta), std::sin(theta)}, .cosThetaE = 1};
+  // The sine of the float next to π is negative, and the angle would be −π.
+  return {.axes = {axis, std::cos(theta), std::max(0.0f, std::sin(theta))}, .cosThetaE = 1};
 }
 
 LightBounds boundsOf(const Lights& lights, LightId light) {

@@ -194,6 +194,18 @@ TEST(CellCut, LampsBesideTheCellAndAllAroundItAreDrawnForEveryFacing) {
   }
 }
 
+TEST(ClusterBounds, ASkyOfOneTexelReachesEveryFacing) {
+  Scene scene;
+  scene.environment.emplace();
+  scene.environment->radiance = ImageRgb(1, 1);
+  scene.environment->radiance[0] = Vec3(1);
+  const Lights lights(scene);
+  const LightTrees trees(lights);
+  for (std::size_t i = 0; i < kFacings; ++i) {
+    EXPECT_GT(nodeImportance(trees.distant, true, trees.distant.root(), Vec3(0), facing(i).axis), 0);
+  }
+}
+
 // A cluster around the cell has no direction: what it weighs must not depend on the facing.
 TEST(Cut, FarClustersAroundTheCellWeighTheSameForAllFacings) {
   Scene scene;
