@@ -9,6 +9,10 @@ namespace {
 /// for the horizon's cosine, and the sun a tile of its own.
 constexpr float kTileShare = 1.0f / 256;
 
+/// Weights are scaled so that the brightest radiance is about 2 to this power: the sum over a sphere of it is finite, and
+/// the weight of a texel 60 decades dimmer at the pole of a large picture is not denormal.
+constexpr int kBrightestExponent = 100;
+
 constexpr std::int32_t kBlack = std::numeric_limits<std::int32_t>::min();
 
 }  // namespace
@@ -21,8 +25,15 @@ EnvironmentLight::EnvironmentLight(const Environment& environment) : environment
     const double band = 2 * std::sin(pi * (y + 0.5) / height) * std::sin(pi * 0.5 / height);
     texelSolidAngles_.push_back(static_cast<float>(2 * pi / width * band));
   }
+  chooseUnit();
   buildPyramid();
   if (levels_.back().weights[0] > 0) splitTiles();
+}
+
+void EnvironmentLight::chooseUnit() {
+  float brightest = 0;
+  for (const Vec3& radiance : environment_.radiance) brightest = std::max(brightest, luminance(radiance));
+  if (brightest > 0) exponent_ = std::ilogb(brightest) - kBrightestExponent;
 }
 
 void EnvironmentLight::buildPyramid() {
@@ -30,18 +41,20 @@ void EnvironmentLight::buildPyramid() {
   const int width = image.width(), height = image.height();
   Level texels{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
   texels.weights.resize(image.size());
+  const double scale = std::ldexp(1.0, -exponent_);
   tbb::parallel_for(0, height, [&](int y) {
-    const float solidAngle = texelSolidAngles_[static_cast<std::size_t>(y)];
+    const double scaledAngle = static_cast<double>(texelSolidAngles_[static_cast<std::size_t>(y)]) * scale;
     for (int x = 0; x < width; ++x) {
       // The integral of a bilinear interpolant over a texel: (1 6 1)/8 on each axis.
-      float sum = 0;
+      double sum = 0;
       for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
           const int sx = (x + i + width) % width, sy = std::clamp(y + j, 0, height - 1);
-          sum += (i == 0 ? 0.75f : 0.125f) * (j == 0 ? 0.75f : 0.125f) * luminance(image.at(sx, sy));
+          sum += (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125) * static_cast<double>(luminance(image.at(sx, sy)));
         }
       }
-      texels.weights[static_cast<std::size_t>(y) * texels.width + static_cast<std::size_t>(x)] = sum * solidAngle;
+      texels.weights[static_cast<std::size_t>(y) * texels.width + static_cast<std::size_t>(x)] =
+          static_cast<float>(sum * scaledAngle);
     }
   });
   levels_.push_back(std::move(texels));
@@ -98,8 +111,8 @@ void EnvironmentLight::addTile(std::uint8_t level, std::uint32_t x, std::uint32_
   const float halfLatitude = kPi * 0.5f * (v1 - v0);
   const float widest = v0 <= 0.5f && v1 >= 0.5f ? 1.0f : std::max(std::sin(kPi * v0), std::sin(kPi * v1));
   const float halfAngle = std::min(kPi, halfLatitude + kPi * (u1 - u0) * widest);
-  tiles_.push_back({level, x, y, levels_[level].at(x, y),
-                    directionFromLatLong(environment_, {0.5f * (u0 + u1), 0.5f * (v0 + v1)}), std::cos(halfAngle)});
+  tiles_.push_back({level, x, y, std::ldexp(static_cast<double>(levels_[level].at(x, y)), exponent_),
+                    directionFromLatLong(environment_, {0.5f * (u0 + u1), 0.5f * (v0 + v1)}), halfAngle});
 }
 
 EnvironmentLight::Sample EnvironmentLight::sample(std::size_t tile, Vec2 u) const {
@@ -127,8 +140,7 @@ EnvironmentLight::Sample EnvironmentLight::sample(std::size_t tile, Vec2 u) cons
   const float cosBottom = std::cos(kPi * static_cast<float>(y + 1) / height);
   const float v = std::acos(std::clamp(cosTop + u.y * (cosBottom - cosTop), -1.0f, 1.0f)) * kInvPi;
   const Vec2 uv((static_cast<float>(x) + u.x) / width, v);
-  return {uv, directionFromLatLong(environment_, uv),
-          levels_[0].at(x, y) / (tiles_[tile].weight * texelSolidAngles_[y])};
+  return {uv, directionFromLatLong(environment_, uv), density(tiles_[tile], {x, y})};
 }
 
 EnvironmentLight::Texel EnvironmentLight::texelAt(Vec2 uv) const {
@@ -137,9 +149,12 @@ EnvironmentLight::Texel EnvironmentLight::texelAt(Vec2 uv) const {
           std::min(static_cast<std::uint32_t>(uv.y * static_cast<float>(height)), height - 1)};
 }
 
+float EnvironmentLight::density(const EnvironmentTile& tile, const Texel& texel) const {
+  return levels_[0].at(texel.x, texel.y) / levels_[tile.level].at(tile.x, tile.y) / texelSolidAngles_[texel.y];
+}
+
 float EnvironmentLight::pdf(std::size_t tile, Vec2 uv) const {
-  const Texel texel = texelAt(uv);
-  return levels_[0].at(texel.x, texel.y) / (tiles_[tile].weight * texelSolidAngles_[texel.y]);
+  return density(tiles_[tile], texelAt(uv));
 }
 
 std::optional<std::size_t> EnvironmentLight::tileAt(Vec2 uv) const {

@@ -19,9 +19,9 @@ namespace cellcut {
 struct EnvironmentTile {
   std::uint8_t level;  ///< of the pyramid; 0 are texels
   std::uint32_t x, y;  ///< node at that level
-  float weight;        ///< mean luminance × solid angle, W/m², > 0
+  double weight;       ///< mean luminance × solid angle, W/m², > 0
   Vec3 axis;           ///< unit, middle of the tile
-  float cosHalfAngle;  ///< every direction of the tile is within this angle of the axis
+  float halfAngle;     ///< radians; every direction of the tile is within this angle of the axis
 };
 
 class EnvironmentLight {
@@ -58,14 +58,18 @@ class EnvironmentLight {
       return x < width && y < height ? weights[static_cast<std::size_t>(y) * width + x] : 0.0f;
     }
   };
+  void chooseUnit();
   void buildPyramid();
   void splitTiles();
   void addTile(std::uint8_t level, std::uint32_t x, std::uint32_t y);
   Texel texelAt(Vec2 uv) const;
+  /// Probability density over solid angle of directions in a texel, given its tile.
+  float density(const EnvironmentTile& tile, const Texel& texel) const;
 
   const Environment& environment_;
   std::vector<float> texelSolidAngles_;  ///< per row, sr
-  std::vector<Level> levels_;
+  std::vector<Level> levels_;            ///< weights in units of 2^exponent_ W/m²
+  int exponent_ = 0;
   std::vector<EnvironmentTile> tiles_;
   /// Quadtree from the pyramid's top to the tiles: index of the first of four children, or ~tile, or kBlack.
   std::vector<std::int32_t> nodes_;

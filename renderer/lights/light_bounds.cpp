@@ -32,8 +32,9 @@ LightBounds triangleBounds(const Scene& scene, const TriangleLight& light) {
 }
 
 /// Emission of a distant light does not spread past its axes.
-LightBounds infiniteBounds(const Vec3& axis, float cosTheta) {
-  return {.axes = {axis, cosTheta, safeSqrt(1 - cosTheta * cosTheta)}, .cosThetaE = 1};
+LightBounds infiniteBounds(const Vec3& axis, float theta) {
+  // The sine of the float next to π is negative, and the angle would be −π.
+  return {.axes = {axis, std::cos(theta), std::max(0.0f, std::sin(theta))}, .cosThetaE = 1};
 }
 
 LightBounds boundsOf(const Lights& lights, LightId light) {
@@ -47,12 +48,12 @@ LightBounds boundsOf(const Lights& lights, LightId light) {
     case LightKind::kTriangle:
       return triangleBounds(scene, lights.triangles()[i]);
     case LightKind::kDirectional:
-      return infiniteBounds(scene.directionalLights[i].axis, 1);
+      return infiniteBounds(scene.directionalLights[i].axis, 0);
     case LightKind::kEnvironment:
       break;
   }
   const EnvironmentTile& tile = lights.environment()->tiles()[i];
-  return infiniteBounds(-tile.axis, tile.cosHalfAngle);
+  return infiniteBounds(-tile.axis, tile.halfAngle);
 }
 
 std::vector<LightBounds> boundsOfRange(const Lights& lights, std::size_t first, std::size_t last, int exponent) {
@@ -73,12 +74,14 @@ std::size_t localCount(const Lights& lights) {
 }  // namespace
 
 Cone coneUnion(const Cone& a, const Cone& b) {
-  const Cone& wide = a.cosTheta <= b.cosTheta ? a : b;
-  const Cone& narrow = a.cosTheta <= b.cosTheta ? b : a;
+  // Angles and not cosines are compared: every cosine of less than 2.4e-4 rad is 1.
+  const float angleOfA = std::atan2(a.sinTheta, a.cosTheta), angleOfB = std::atan2(b.sinTheta, b.cosTheta);
+  const bool aIsWide = angleOfA >= angleOfB;
+  const Cone& wide = aIsWide ? a : b;
+  const Cone& narrow = aIsWide ? b : a;
   if (wide.cosTheta <= -1) return kAllDirections;
   const float between = std::atan2(glm::length(glm::cross(wide.axis, narrow.axis)), glm::dot(wide.axis, narrow.axis));
-  const float wideAngle = std::atan2(wide.sinTheta, wide.cosTheta);
-  const float narrowAngle = std::atan2(narrow.sinTheta, narrow.cosTheta);
+  const float wideAngle = std::max(angleOfA, angleOfB), narrowAngle = std::min(angleOfA, angleOfB);
   if (between + narrowAngle <= wideAngle) return wide;
   const float angle = 0.5f * (wideAngle + between + narrowAngle);
   // Opposite axes have no plane to turn in; any cone around both is all directions or nearly so.

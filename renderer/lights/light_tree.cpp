@@ -63,29 +63,37 @@ struct Split {
   float cost = kInfinity;
 };
 
-int bucketOf(float middle, float lower, float scale) {
-  return std::min(static_cast<int>((middle - lower) * scale), kBuckets - 1);
-}
+/// Even buckets along one axis. In double: among floats an extent may overflow, and so may the quotient by an extent
+/// that is denormal.
+struct Buckets {
+  double lower, extent;
+
+  Buckets(const Bounds& middles, int axis)
+      : lower(static_cast<double>(middles.lower[axis])), extent(static_cast<double>(middles.upper[axis]) - lower) {}
+  bool flat() const { return !(extent > 0); }
+  /// 0 … kBuckets − 1. \pre not flat
+  int of(float middle) const {
+    const double position = (static_cast<double>(middle) - lower) * (kBuckets / extent);
+    return position > 0 ? static_cast<int>(std::min(position, double{kBuckets - 1})) : 0;
+  }
+};
 
 Split bestSplit(std::span<const BuildLight> lights, const Bounds& middles) {
-  const Vec3 extent = middles.upper - middles.lower;
-  const float longest = maxComponent(extent);
+  const std::array axes{Buckets(middles, 0), Buckets(middles, 1), Buckets(middles, 2)};
+  const double longest = std::max({axes[0].extent, axes[1].extent, axes[2].extent});
   std::array<std::array<Bucket, kBuckets>, 3> buckets;
-  Vec3 scale;
-  for (int axis = 0; axis < 3; ++axis) scale[axis] = extent[axis] > 0 ? kBuckets / extent[axis] : 0.0f;
   for (const BuildLight& light : lights) {
     const Vec3 middle = light.middle();
-    for (int axis = 0; axis < 3; ++axis) {
-      if (extent[axis] > 0) {
-        buckets[static_cast<std::size_t>(axis)]
-               [static_cast<std::size_t>(bucketOf(middle[axis], middles.lower[axis], scale[axis]))]
-                   .add(light);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!axes[axis].flat()) {
+        buckets[axis][static_cast<std::size_t>(axes[axis].of(middle[static_cast<int>(axis)]))].add(light);
       }
     }
   }
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(extent[axis] > 0)) continue;
+    const Buckets& along = axes[static_cast<std::size_t>(axis)];
+    if (along.flat()) continue;
     const auto& row = buckets[static_cast<std::size_t>(axis)];
     std::array<float, kBuckets> right{};  // cost of all buckets after
     Bucket sum;
@@ -98,7 +106,7 @@ Split bestSplit(std::span<const BuildLight> lights, const Bounds& middles) {
       sum.add(row[b]);
       if (sum.count == 0) continue;
       // Thin boxes are discouraged: Conty Estevez and Kulla's regularisation.
-      const float cost = (sum.cost() + right[b]) * (longest / extent[axis]);
+      const float cost = (sum.cost() + right[b]) * static_cast<float>(longest / along.extent);
       if (cost < best.cost) best = {axis, static_cast<int>(b), cost};
     }
   }
@@ -143,10 +151,9 @@ class Builder {
     for (const BuildLight& light : range) middles.add(light.middle());
     const Split best = depth < kMaxCostDepth ? bestSplit(range, middles) : Split{};
     if (best.axis >= 0) {
-      const float lower = middles.lower[best.axis];
-      const float scale = kBuckets / (middles.upper[best.axis] - lower);
+      const Buckets along(middles, best.axis);
       const auto middle = std::partition(range.begin(), range.end(), [&](const BuildLight& light) {
-        return bucketOf(light.middle()[best.axis], lower, scale) <= best.bucket;
+        return along.of(light.middle()[best.axis]) <= best.bucket;
       });
       if (middle != range.begin() && middle != range.end()) {
         return first + static_cast<std::size_t>(middle - range.begin());
@@ -165,10 +172,9 @@ std::int16_t toSigned16(float x) {
   return static_cast<std::int16_t>(std::lround(x * 32767));
 }
 
-/// sin(θ/2) of an angle given by its cosine, rounded up to a multiple of 1/65535. `extra` radians are added first.
-std::uint16_t sinHalf16(float cosTheta, float extra) {
-  const float theta = std::min(kPi, std::acos(std::clamp(cosTheta, -1.0f, 1.0f)) + extra);
-  return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * theta) * 65535)));
+/// sin(θ/2), rounded up to a multiple of 1/65535.
+std::uint16_t sinHalf16(float theta) {
+  return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * std::min(kPi, theta)) * 65535)));
 }
 
 /// Largest angle between an axis and its 2 × 16-bit code: half a step in the octahedron's plane, stretched by at most
@@ -183,8 +189,8 @@ LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf,
       intensity_(bounds.intensity),
       axisX_(toSigned16(octahedral(bounds.axes.axis).x)),
       axisY_(toSigned16(octahedral(bounds.axes.axis).y)),
-      sinHalfO_(sinHalf16(bounds.axes.cosTheta, kAxisError)),
-      sinHalfE_(sinHalf16(bounds.cosThetaE, 0)),
+      sinHalfO_(sinHalf16(std::atan2(bounds.axes.sinTheta, bounds.axes.cosTheta) + kAxisError)),
+      sinHalfE_(sinHalf16(std::acos(std::clamp(bounds.cosThetaE, -1.0f, 1.0f)))),
       firstLeaf_(firstLeaf),
       leafCountAndSides_(leafCount | (bounds.twoSided ? kTwoSided : 0)) {}
 
@@ -215,29 +221,45 @@ LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool 
   Builder(bounds, lights, nodes_).build(0, lights.size(), 0, 0);
 
   leaves_.reserve(lights.size());
-  intensitySums_.reserve(lights.size() + 1);
-  double sum = 0;
   for (const BuildLight& light : lights) {
     leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
     leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
-    intensitySums_.push_back(sum);
-    sum += light.intensity;
   }
-  intensitySums_.push_back(sum);
 }
 
-std::uint32_t LightTree::sampleByIntensity(NodeId id, double u) const {
-  const std::uint32_t first = node(id).firstLeaf(), last = first + node(id).leafCount();
-  const double lower = intensitySums_[first], target = lower + u * (intensitySums_[last] - lower);
-  // The last leaf whose sum before it is not above the target; leaves too faint to move the sum are stepped over.
-  const auto begin = intensitySums_.begin();
-  const auto found = std::upper_bound(begin + first + 1, begin + last, target) - begin - 1;
-  return static_cast<std::uint32_t>(found);
+LightTree::Shares LightTree::intensityShares(NodeId id) const {
+  const auto l = static_cast<double>(node(left(id)).intensity()), r = static_cast<double>(node(right(id)).intensity());
+  // Not 1 − left: what is 10⁻¹⁷ of its sibling has a probability, too.
+  return {l / (l + r), r / (l + r)};
+}
+
+SampledLeaf LightTree::sampleByIntensity(NodeId id, double u) const {
+  constexpr double kAlmostOne = 1 - 0x1p-53;
+  double pmf = 1;
+  while (!isLeaf(id)) {
+    const auto [toLeft, toRight] = intensityShares(id);
+    if (u < toLeft) {
+      u = std::min(u / toLeft, kAlmostOne);
+      pmf *= toLeft;
+      id = left(id);
+    } else {
+      u = std::min((u - toLeft) / toRight, kAlmostOne);
+      pmf *= toRight;
+      id = right(id);
+    }
+  }
+  return {node(id).firstLeaf(), pmf};
 }
 
 double LightTree::pmfByIntensity(NodeId id, std::uint32_t leaf) const {
-  const std::uint32_t first = node(id).firstLeaf(), last = first + node(id).leafCount();
-  return (intensitySums_[leaf + 1] - intensitySums_[leaf]) / (intensitySums_[last] - intensitySums_[first]);
+  double pmf = 1;
+  while (!isLeaf(id)) {
+    const auto [toLeft, toRight] = intensityShares(id);
+    const bool isLeft = leaf < node(right(id)).firstLeaf();
+    pmf *= isLeft ? toLeft : toRight;
+    id = isLeft ? left(id) : right(id);
+  }
+  return pmf;
 }
 
 int LightTree::depth() const {
@@ -254,7 +276,7 @@ int LightTree::depth() const {
 
 std::size_t LightTree::bytes() const {
   return nodes_.capacity() * sizeof(LightTreeNode) + leaves_.capacity() * sizeof(LightId) +
-         leafOfLight_.capacity() * sizeof(std::uint32_t) + intensitySums_.capacity() * sizeof(double);
+         leafOfLight_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace cellcut

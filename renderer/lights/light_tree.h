@@ -17,6 +17,12 @@ namespace cellcut {
 
 enum class NodeId : std::uint32_t {};
 
+/// A leaf that was chosen below some node.
+struct SampledLeaf {
+  std::uint32_t leaf;
+  double pmf;
+};
+
 /// 44 bytes, so that two nodes per light with what belongs to them stay below 120 bytes.
 class LightTreeNode {
  public:
@@ -70,10 +76,11 @@ class LightTree {
   }
   static constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
-  /// Chooses a leaf of a node with probability proportional to J.
+  /// Chooses a leaf of a node with probability proportional to J: child by child, and not by sums over leaves, in which
+  /// faint lights beside strong ones are lost.
   /// \param u  uniform in [0, 1)
-  std::uint32_t sampleByIntensity(NodeId id, double u) const;
-  /// Its probability.
+  SampledLeaf sampleByIntensity(NodeId id, double u) const;
+  /// Its probability. \pre the leaf is below the node
   double pmfByIntensity(NodeId id, std::uint32_t leaf) const;
 
   std::span<const LightTreeNode> nodes() const { return nodes_; }
@@ -81,11 +88,15 @@ class LightTree {
   std::size_t bytes() const;
 
  private:
+  /// J of each child / J of both. \pre not a leaf
+  struct Shares {
+    double left, right;
+  };
+  Shares intensityShares(NodeId id) const;
+
   std::vector<LightTreeNode> nodes_;
   std::vector<LightId> leaves_;  ///< in depth-first order
   std::vector<std::uint32_t> leafOfLight_;
-  std::vector<double>
-      intensitySums_;  ///< of all leaves before: N + 1 values. Double, or faint lights could never be drawn
   LightId firstId_;
 };
 

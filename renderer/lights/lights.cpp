@@ -220,7 +220,7 @@ double Lights::irradiance(LightId light, const Vec3& p, const Vec3& n) const {
       // The largest cosine that any direction of the tile can have; the margin is the rounding of its float cone.
       const EnvironmentTile& tile = environment_->tiles()[i];
       const double toAxis = std::acos(std::clamp<double>(glm::dot(glm::dvec3(n), glm::dvec3(tile.axis)), -1, 1));
-      const double nearest = std::max(0.0, toAxis - std::acos(static_cast<double>(tile.cosHalfAngle)) - 1e-6);
+      const double nearest = std::max(0.0, toAxis - static_cast<double>(tile.halfAngle) - 1e-6);
       return tile.weight * std::max(0.0, std::cos(nearest));
     }
   }

@@ -30,7 +30,7 @@ class Stopwatch {
 CellCutSampler::CellCutSampler(const Lights& lights, const SamplerSettings& settings, std::span<const Vec3> pilot)
     : trees_(lights),
       settings_(settings),
-      grid_(centralBox(pilot), settings.gridResolution),
+      grid_(pilot.empty() ? lights.scene().bounds : centralBox(pilot), settings.gridResolution),
       cells_(settings.cellMemory) {}
 
 Cut CellCutSampler::makeCutTimed(const Region& region) const {
@@ -59,8 +59,11 @@ auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
   if (cut->farCount() == 0) return use(*cut, FarChoice());
   if (const FarChoice* far = cut->farChoice(facing)) return use(*cut, *far);
   FarChoice made = makeFarChoice(*cut, facing);
-  if (!cells_.reserve(made.bytes())) return use(*cut, made);
-  return use(*cut, *cut->keep(facing, std::move(made)));
+  const std::size_t bytes = made.bytes();
+  if (!cells_.reserve(bytes)) return use(*cut, made);
+  const Cut::Kept kept = cut->keep(facing, std::move(made));
+  if (!kept.isNew) cells_.release(bytes);
+  return use(*cut, *kept.choice);
 }
 
 std::optional<SampledLight> CellCutSampler::sample(const ShadingPoint& point, double u) const {

@@ -12,7 +12,8 @@ namespace cellcut {
 
 class CellCutSampler final : public LightSampler {
  public:
-  /// \param pilot  points that the scene is shaded at, a fixed sample of them: they size the grid
+  /// \param pilot  points that the scene is shaded at, a fixed sample of them: they size the grid; without any the
+  ///               scene's bounds do
   CellCutSampler(const Lights& lights, const SamplerSettings& settings, std::span<const Vec3> pilot);
 
   std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override;

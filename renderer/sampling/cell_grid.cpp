@@ -12,6 +12,8 @@ constexpr std::int32_t kCoordinateLimit = 1 << 20;
 constexpr std::uint64_t kEmptyKey = ~0ull;
 /// Smallest bytes of a cut that is worth a slot; a table of maxBytes has a slot for each such cut.
 constexpr std::size_t kBytesPerSlot = 1024;
+/// Most slots: they are made with the table, and 64 MiB of them is room for more cells than any picture touches.
+constexpr std::size_t kMaxSlots = std::size_t{1} << 22;
 /// Slots looked at before the table counts as full.
 constexpr std::size_t kMaxProbes = 64;
 
@@ -60,9 +62,10 @@ std::optional<CellCoordinates> GridGeometry::cellOf(const Vec3& p) const {
 
 Region GridGeometry::region(const CellCoordinates& cell) const {
   const glm::dvec3 centre = origin_ + (glm::dvec3(cell.x, cell.y, cell.z) + 0.5) * size_;
-  const Vec3 rounded(centre);
-  const double rounding = glm::length(glm::dvec3(rounded) - centre);
-  return {rounded, static_cast<float>(0.5 * std::sqrt(3.0) * size_ + rounding) * (1 + gammaBound(4))};
+  // The rounding of the centre is bounded and not measured: GCC 12 takes the difference of a double and its float, both
+  // in one vector, to be 0.
+  const double rounding = static_cast<double>(gammaBound(1)) * glm::length(centre);
+  return {Vec3(centre), static_cast<float>(0.5 * std::sqrt(3.0) * size_ + rounding) * (1 + gammaBound(4))};
 }
 
 Bounds GridGeometry::box(const CellCoordinates& cell) const {
@@ -90,7 +93,9 @@ Bounds centralBox(std::span<const Vec3> points) {
 }
 
 CellTable::CellTable(std::size_t maxBytes)
-    : maxBytes_(maxBytes), slots_(std::bit_ceil(std::max<std::size_t>(maxBytes / kBytesPerSlot, 1))), bytes_(0) {
+    : maxBytes_(maxBytes),
+      slots_(std::bit_ceil(std::clamp<std::size_t>(maxBytes / kBytesPerSlot, 1, kMaxSlots))),
+      bytes_(0) {
   for (Slot& slot : slots_) {
     slot.key.store(kEmptyKey, std::memory_order_relaxed);
     slot.cut.store(nullptr, std::memory_order_relaxed);
@@ -113,19 +118,7 @@ const Cut* CellTable::findOrMake(const CellCoordinates& cell, const std::functio
     Slot& slot = slots_[at];
     std::uint64_t found = slot.key.load(std::memory_order_acquire);
     if (found == kEmptyKey && slot.key.compare_exchange_strong(found, key, std::memory_order_acq_rel)) {
-      // Ours to make. Whether there is room is decided before, so that a full table costs no memory.
-      const Cut* made = kNoRoom;
-      if (bytes() < maxBytes_) {
-        try {
-          made = new Cut(make());
-          bytes_.fetch_add(made->bytes(), std::memory_order_relaxed);
-        } catch (const std::bad_alloc&) {
-          // Others wait for this slot: there is no room, the caller makes its own.
-        }
-      }
-      slot.cut.store(made, std::memory_order_release);
-      slot.cut.notify_all();
-      return made == kNoRoom ? nullptr : made;
+      return fill(slot, make);
     }
     if (found != key) continue;
     const Cut* cut = slot.cut.load(std::memory_order_acquire);
@@ -136,6 +129,29 @@ const Cut* CellTable::findOrMake(const CellCoordinates& cell, const std::functio
     return cut == kNoRoom ? nullptr : cut;
   }
   return nullptr;
+}
+
+const Cut* CellTable::fill(Slot& slot, const std::function<Cut()>& make) {
+  // Whatever happens, others wait for this slot.
+  const auto publish = [&](const Cut* cut) {
+    slot.cut.store(cut, std::memory_order_release);
+    slot.cut.notify_all();
+  };
+  const Cut* made = kNoRoom;
+  try {
+    // Whether there is room is decided before, so that a full table costs no memory.
+    if (bytes() < maxBytes_) {
+      made = new Cut(make());
+      bytes_.fetch_add(made->bytes(), std::memory_order_relaxed);
+    }
+  } catch (const std::bad_alloc&) {
+    // No room: the caller makes its own.
+  } catch (...) {
+    publish(kNoRoom);
+    throw;
+  }
+  publish(made);
+  return made == kNoRoom ? nullptr : made;
 }
 
 bool CellTable::reserve(std::size_t bytes) {

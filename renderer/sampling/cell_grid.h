@@ -61,9 +61,12 @@ class CellTable {
 
   /// The cell's cut: found, or made by `make` once for all threads. Null when the memory is used up: the caller makes
   /// its own.
+  /// \throws what `make` throws, but for std::bad_alloc, which is no room; the cell is not asked for again.
   const Cut* findOrMake(const CellCoordinates& cell, const std::function<Cut()>& make);
   /// Takes memory of the table's share for something that belongs to a kept cut; false when it is used up.
   bool reserve(std::size_t bytes);
+  /// Gives back what was reserved and is not used after all.
+  void release(std::size_t bytes) { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
   /// The cell's cut if it was made.
   const Cut* find(const CellCoordinates& cell) const;
 
@@ -76,6 +79,9 @@ class CellTable {
     std::atomic<std::uint64_t> key;
     std::atomic<const Cut*> cut;
   };
+  /// Makes the cut of a slot that this thread has taken, and wakes those that wait for it.
+  const Cut* fill(Slot& slot, const std::function<Cut()>& make);
+
   std::size_t maxBytes_;
   std::vector<Slot> slots_;  ///< open addressing, a power of two
   std::atomic<std::size_t> bytes_;

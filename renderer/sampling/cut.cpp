@@ -12,20 +12,33 @@ namespace {
 /// side that it shows vary over the cell.
 constexpr float kNearShare = 0.3f;
 
+/// A light of a cluster is taken to be no nearer than this share of the cluster's radius.
+constexpr float kLeastShare = 0.05f;
+
 /// A region that is one point, known to be one when the code is compiled: the inner loop of every descent.
 struct PointRegion {
   const Vec3& centre;
   static constexpr float radius = 0;
 };
 
+Vec3 centreOf(const LightTreeNode& node) {
+  return 0.5f * node.upper() + 0.5f * node.lower();
+}
+
+/// Radius around the centre as it was rounded: half the diagonal leaves out a corner by that rounding, which among
+/// lights far from the origin is more than they are apart.
+float radiusOf(const LightTreeNode& node, const Vec3& centre) {
+  return glm::length(glm::max(node.upper() - centre, centre - node.lower()));
+}
+
 /// localCluster() into `cluster`, of which only the node is set so far; false: nothing.
 template <class AnyRegion>
 inline bool estimateLocal(const LightTreeNode& node, const AnyRegion& region, Cluster& cluster) {
-  const Vec3 halfDiagonal = 0.5f * node.upper() - 0.5f * node.lower();
-  const float clusterRadius = glm::length(halfDiagonal);
-  const Vec3 toCluster = (0.5f * node.upper() + 0.5f * node.lower()) - region.centre;
+  const Vec3 centre = centreOf(node);
+  const float clusterRadius = radiusOf(node, centre);
+  const Vec3 toCluster = centre - region.centre;
   const float distance = glm::length(toCluster);
-  const float reach = region.radius + clusterRadius;
+  const float reach = (region.radius + clusterRadius) * kReachMargin;
 
   float cosine = 1;
   if (reach < distance) {
@@ -36,7 +49,7 @@ inline bool estimateLocal(const LightTreeNode& node, const AnyRegion& region, Cl
     const Cone axes = node.axes();
     float cosTheta = -glm::dot(axes.axis, cluster.direction);
     if (node.twoSided()) cosTheta = std::abs(cosTheta);
-    const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
+    const float sinTheta = sineAbove(cosTheta);
     const float cosPastAxes = cosSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
     const float sinPastAxes = sinSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
     cosine = cosSubClamped(cosPastAxes, sinPastAxes, cluster.cosThetaU, cluster.sinThetaU);
@@ -47,9 +60,10 @@ inline bool estimateLocal(const LightTreeNode& node, const AnyRegion& region, Cl
       region.radius == 0 ? clusterRadius : std::sqrt(region.radius * region.radius + clusterRadius * clusterRadius);
   const float mean = meanDistance(distance, rho);
   cluster.meanDistance = mean;
+  cluster.leastDistance =
+      std::max({distance - clusterRadius, static_cast<float>(region.radius), kLeastShare * clusterRadius});
   // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
-  cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, std::numeric_limits<float>::max())
-                              : node.intensity();
+  cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, kMaxWeight) : node.intensity();
   if (!(cluster.estimate > 0)) cluster.estimate = std::numeric_limits<float>::min();
   return true;
 }
@@ -72,7 +86,7 @@ TreeStatistics LightTrees::statistics() const {
 }
 
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
-  Cluster cluster{id, false, 0, 0, Vec3(0, 0, 1), -1, 0};
+  Cluster cluster{id, false, 0, 0, 0, Vec3(0, 0, 1), -1, 0};
   if (!estimateLocal(tree.node(id), region, cluster)) return std::nullopt;
   return cluster;
 }
@@ -80,11 +94,11 @@ std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Regi
 Cluster distantCluster(const LightTree& tree, NodeId id) {
   const LightTreeNode& node = tree.node(id);
   const Cone axes = node.axes();
-  return {id, true, node.intensity(), kInfinity, -axes.axis, axes.cosTheta, axes.sinTheta};
+  return {id, true, node.intensity(), kInfinity, kInfinity, -axes.axis, axes.cosTheta, axes.sinTheta};
 }
 
 float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n) {
-  Cluster cluster{id, false, 0, 0, Vec3(0, 0, 1), -1, 0};
+  Cluster cluster{id, false, 0, 0, 0, Vec3(0, 0, 1), -1, 0};
   if (distant) {
     cluster = distantCluster(tree, id);
   } else if (!estimateLocal(tree.node(id), PointRegion{p}, cluster)) {
@@ -110,7 +124,7 @@ class CutSearch {
   void refine() {
     const auto maxSize = static_cast<std::size_t>(settings_.maxSize);
     while (!open_.empty() && open_.size() + leaves_.size() < maxSize &&
-           static_cast<double>(open_.front().estimate) > static_cast<double>(settings_.threshold) * sum_) {
+           static_cast<double>(open_.front().priority) > static_cast<double>(settings_.threshold) * sum_) {
       std::pop_heap(open_.begin(), open_.end());
       const Cluster parent = seen_[open_.back().cluster];
       open_.pop_back();
@@ -133,13 +147,22 @@ class CutSearch {
 
  private:
   struct Candidate {
-    float estimate;
+    float priority;
     std::uint32_t cluster;
-    /// Equal estimates are told apart, so that the cut does not depend on how a heap is built.
+    /// Equal priorities are told apart, so that the cut does not depend on how a heap is built.
     bool operator<(const Candidate& other) const {
-      return estimate != other.estimate ? estimate < other.estimate : cluster > other.cluster;
+      return priority != other.priority ? priority < other.priority : cluster > other.cluster;
     }
   };
+
+  /// The estimate, had the cluster all its light where it is nearest: the mean distance underrates a large box with
+  /// bright lamps beside the cell, and it must not stay in one piece for that.
+  static float priority(const Cluster& cluster) {
+    const float ratio = cluster.meanDistance / cluster.leastDistance;
+    // Not so for distant clusters and for coincident lights at the point, where the ratio is no number.
+    if (!(ratio > 1)) return cluster.estimate;
+    return std::min(cluster.estimate * ratio * ratio, std::numeric_limits<float>::max());
+  }
 
   void add(bool distant, NodeId node) {
     const LightTree& tree = distant ? trees_.distant : trees_.local;
@@ -152,7 +175,7 @@ class CutSearch {
     if (tree.isLeaf(node)) {
       leaves_.push_back(index);
     } else {
-      open_.push_back({cluster->estimate, index});
+      open_.push_back({priority(*cluster), index});
       std::push_heap(open_.begin(), open_.end());
     }
   }
@@ -203,7 +226,8 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
   members_.reserve(clusters.size());
   for (const Cluster& c : clusters) {
     if (isNear(c)) continue;
-    far_.push_back({c.estimate, c.direction, c.cosThetaU, c.sinThetaU});
+    // The mean of the directions in a cone; all of the weight would otherwise be where the cone's axis happens to point.
+    far_.push_back({c.estimate, c.direction * (0.5f + 0.5f * c.cosThetaU), c.cosThetaU, c.sinThetaU});
     addMember(c);
   }
   near_ = BlockedFloats(clusters.size() - far_.size(), kNearFields);
@@ -230,12 +254,12 @@ Cut::~Cut() {
 
 void Cut::addNear(const LightTreeNode& node, std::size_t i) {
   const auto set = [&](NearField field, float value) { near_.field(field)[i] = value; };
-  const Vec3 centre = 0.5f * node.upper() + 0.5f * node.lower();
+  const Vec3 centre = centreOf(node);
   const Cone axes = node.axes();
   set(kCentreX, centre.x);
   set(kCentreY, centre.y);
   set(kCentreZ, centre.z);
-  set(kRadius, glm::length(0.5f * node.upper() - 0.5f * node.lower()));
+  set(kRadius, radiusOf(node, centre));
   set(kIntensity, node.intensity());
   set(kAxisX, axes.axis.x);
   set(kAxisY, axes.axis.y);
@@ -254,17 +278,19 @@ FarChoice Cut::makeFarChoice(std::size_t facingIndex) const {
     // The cosine at the receiver varies by the spread of the directions and by that of the normals.
     const float cosSpread = c.cosThetaU * normals.cosSpread - c.sinThetaU * normals.sinSpread;
     const float sinSpread = c.sinThetaU * normals.cosSpread + c.cosThetaU * normals.sinSpread;
-    const float cosTheta = glm::dot(c.direction, normals.axis);
+    const float cosTheta = glm::dot(c.meanDirection, normals.axis);
     weights.push_back(static_cast<double>(c.estimate) * meanClampedCosine(cosTheta, cosSpread > 0 ? sinSpread : 1.0f));
   }
   return FarChoice(weights);
 }
 
-const FarChoice* Cut::keep(std::size_t facingIndex, FarChoice choice) const {
+Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
   auto mine = std::make_unique<const FarChoice>(std::move(choice));
   const FarChoice* kept = nullptr;
-  if (!choices_[facingIndex].compare_exchange_strong(kept, mine.get(), std::memory_order_acq_rel)) return kept;
-  return mine.release();
+  if (!choices_[facingIndex].compare_exchange_strong(kept, mine.get(), std::memory_order_acq_rel)) {
+    return {kept, false};
+  }
+  return {mine.release(), true};
 }
 
 std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {

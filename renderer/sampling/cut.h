@@ -52,10 +52,11 @@ struct Region {
 /// One cluster as seen from a region.
 struct Cluster {
   NodeId node;
-  bool distant;                ///< of the distant tree
-  float estimate;              ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
-  float meanDistance;          ///< metres; infinite for distant clusters
-  Vec3 direction;              ///< unit, from the region to the cluster
+  bool distant;         ///< of the distant tree
+  float estimate;       ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
+  float meanDistance;   ///< metres; infinite for distant clusters
+  float leastDistance;  ///< about that of the nearest lights that it may hold, metres; infinite for distant clusters
+  Vec3 direction;       ///< unit, from the region to the cluster
   float cosThetaU, sinThetaU;  ///< all directions from the region to the cluster are within θu of `direction`
 };
 
@@ -68,7 +69,7 @@ Cluster distantCluster(const LightTree& tree, NodeId id);
 /// contribute.
 float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n);
 
-/// Refines the largest estimate first, from the roots. The result is ordered by leaves, local clusters first, and is a
+/// Refines first, from the roots, what may have the largest estimate if all its light is where it is nearest. The result is ordered by leaves, local clusters first, and is a
 /// function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
 
@@ -133,8 +134,12 @@ class Cut {
   const FarChoice* farChoice(std::size_t facing) const {
     return choices_ ? choices_[facing].load(std::memory_order_acquire) : nullptr;
   }
-  /// Keeps a choice, unless another thread was first. Returns the one that is kept. \pre farCount() > 0
-  const FarChoice* keep(std::size_t facing, FarChoice choice) const;
+  struct Kept {
+    const FarChoice* choice;
+    bool isNew;  ///< the one that was given
+  };
+  /// Keeps a choice, unless another thread was first. \pre farCount() > 0
+  Kept keep(std::size_t facing, FarChoice choice) const;
 
   /// Lights that were asked for from this cut, where SamplerSettings::countVisits wants them counted.
   std::uint64_t visits() const { return visits_.get(); }
@@ -146,7 +151,7 @@ class Cut {
   /// What the weight of a far cluster is made of.
   struct Far {
     float estimate;
-    Vec3 direction;
+    Vec3 meanDirection;  ///< of the directions within θu: shorter than 1, and 0 for a cluster all around the cell
     float cosThetaU, sinThetaU;
   };
   void addNear(const LightTreeNode& node, std::size_t i);

@@ -136,9 +136,8 @@ std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, c
     if (!leaf) return std::nullopt;
     return SampledLight{tree.light(leaf->leaf), static_cast<float>(pmf * leaf->pmf)};
   }
-  if (tree.isLeaf(node)) return SampledLight{tree.light(tree.node(node).firstLeaf()), static_cast<float>(pmf)};
-  const std::uint32_t leaf = tree.sampleByIntensity(node, u);
-  return SampledLight{tree.light(leaf), static_cast<float>(pmf * tree.pmfByIntensity(node, leaf))};
+  const SampledLeaf leaf = tree.sampleByIntensity(node, u);
+  return SampledLight{tree.light(leaf.leaf), static_cast<float>(pmf * leaf.pmf)};
 }
 
 float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,

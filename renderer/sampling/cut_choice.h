@@ -7,11 +7,7 @@
 
 namespace cellcut {
 
-/// A leaf below `node`, chosen child by child in proportion to importance.
-struct SampledLeaf {
-  std::uint32_t leaf;
-  double pmf;
-};
+/// A leaf below `node`, chosen child by child in proportion to importance; nothing where no light can contribute.
 std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
                                            double u);
 double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf);

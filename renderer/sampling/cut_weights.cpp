@@ -27,8 +27,14 @@ Floats sineOf(Floats cosine) {
   return hn::Sqrt(hn::Max(hn::Zero(kTag), hn::NegMulAdd(cosine, cosine, hn::Set(kTag, 1.0f))));
 }
 
+/// sineAbove() of cut_weights.h.
+Floats sinesAbove(Floats cosine) {
+  const auto squared = hn::Max(hn::Zero(kTag), hn::NegMulAdd(cosine, cosine, hn::Set(kTag, 1.0f)));
+  return hn::Sqrt(hn::Add(squared, hn::Set(kTag, kSineSquaredMargin)));
+}
+
 Floats receiverCosines(Floats cosTheta, Floats cosU, Floats sinU) {
-  const auto bound = hn::MulAdd(cosTheta, cosU, hn::MulAdd(sineOf(cosTheta), sinU, hn::Set(kTag, kCosineMargin)));
+  const auto bound = hn::MulAdd(cosTheta, cosU, hn::MulAdd(sinesAbove(cosTheta), sinU, hn::Set(kTag, kCosineMargin)));
   return hn::IfThenElse(hn::Ge(cosTheta, cosU), hn::Set(kTag, 1.0f), hn::Max(hn::Zero(kTag), bound));
 }
 
@@ -39,16 +45,17 @@ Floats weigh(const BlockedFloats& near, std::size_t i, const Floats3& p, const F
   const Floats3 to{hn::Sub(load(kCentreX), p.x), hn::Sub(load(kCentreY), p.y), hn::Sub(load(kCentreZ), p.z)};
   const auto distance = hn::Sqrt(dot(to, to));
   const auto radius = load(kRadius);
-  const auto inside = hn::Ge(radius, distance);
+  const auto reach = hn::Mul(radius, hn::Set(kTag, kReachMargin));
+  const auto inside = hn::Ge(reach, distance);
   const auto perDistance = hn::Div(one, hn::IfThenElse(inside, one, distance));
   const Floats3 direction{hn::Mul(to.x, perDistance), hn::Mul(to.y, perDistance), hn::Mul(to.z, perDistance)};
-  const auto sinU = hn::Mul(radius, perDistance);
+  const auto sinU = hn::Mul(reach, perDistance);
   const auto cosU = sineOf(sinU);
 
   const Floats3 axis{load(kAxisX), load(kAxisY), load(kAxisZ)};
   const auto towards = hn::Neg(dot(axis, direction));
   const auto cosTheta = hn::IfThenElse(hn::Gt(load(kTwoSided), zero), hn::Abs(towards), towards);
-  const auto sinTheta = sineOf(cosTheta);
+  const auto sinTheta = sinesAbove(cosTheta);
   const auto cosO = load(kCosThetaO), sinO = load(kSinThetaO);
   const auto withinAxes = hn::Ge(cosTheta, cosO);
   const auto cosPast = hn::IfThenElse(withinAxes, one, hn::MulAdd(cosTheta, cosO, hn::Mul(sinTheta, sinO)));
@@ -63,7 +70,7 @@ Floats weigh(const BlockedFloats& near, std::size_t i, const Floats3& p, const F
                                          hn::Set(kTag, std::numeric_limits<float>::min())));
   const auto mean = hn::MulAdd(hn::Mul(radius, q), q, distance);
   const auto scale = hn::IfThenElse(hn::Gt(mean, zero), mean, one);
-  return hn::Div(hn::Div(hn::Mul(load(kIntensity), factor), scale), scale);
+  return hn::Min(hn::Div(hn::Div(hn::Mul(load(kIntensity), factor), scale), scale), hn::Set(kTag, kMaxWeight));
 }
 
 double nearWeightsSimd(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* HWY_RESTRICT weights,
@@ -89,6 +96,8 @@ double nearWeightsSimd(const BlockedFloats& near, const Vec3& p, const Vec3& n, 
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <new>
+
 #include <hwy/aligned_allocator.h>
 
 namespace cellcut {
@@ -102,6 +111,7 @@ double nearWeights(const BlockedFloats& near, const Vec3& p, const Vec3& n, floa
 BlockedFloats::BlockedFloats(std::size_t count, std::size_t fields) : size_(count), fields_(fields) {
   if (count == 0) return;
   values_.reset(static_cast<float*>(hwy::AllocateAlignedBytes(bytes(), nullptr, nullptr)));
+  if (!values_) throw std::bad_alloc();
   std::fill_n(values_.get(), bytes() / sizeof(float), 0.0f);
 }
 

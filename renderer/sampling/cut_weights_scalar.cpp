@@ -7,15 +7,15 @@ namespace {
 float nearWeight(const BlockedFloats& near, std::size_t i, const Vec3& p, const Vec3& n) {
   const auto value = [&](std::size_t field) { return near.field(field)[i]; };
   const Vec3 to = Vec3(value(kCentreX), value(kCentreY), value(kCentreZ)) - p;
-  const float distance = glm::length(to), radius = value(kRadius);
+  const float distance = glm::length(to), radius = value(kRadius), reach = radius * kReachMargin;
   float factor = 1;
-  if (radius < distance) {
+  if (reach < distance) {
     const Vec3 direction = to / distance;
-    const float sinU = radius / distance, cosU = safeSqrt(1 - sinU * sinU);
+    const float sinU = reach / distance, cosU = safeSqrt(1 - sinU * sinU);
     const Vec3 axis(value(kAxisX), value(kAxisY), value(kAxisZ));
     float cosTheta = -glm::dot(axis, direction);
     if (value(kTwoSided) > 0) cosTheta = std::abs(cosTheta);
-    const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
+    const float sinTheta = sineAbove(cosTheta);
     const float cosO = value(kCosThetaO), sinO = value(kSinThetaO);
     const float cosEmit = cosSubClamped(cosSubClamped(cosTheta, sinTheta, cosO, sinO),
                                         sinSubClamped(cosTheta, sinTheta, cosO, sinO), cosU, sinU);
@@ -24,7 +24,7 @@ float nearWeight(const BlockedFloats& near, std::size_t i, const Vec3& p, const 
   }
   const float mean = meanDistance(distance, radius);
   const float scale = mean > 0 ? mean : 1.0f;
-  return value(kIntensity) * factor / scale / scale;
+  return std::min(value(kIntensity) * factor / scale / scale, kMaxWeight);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST_P(Skies, TilesPartitionTheLitSky) {
     ASSERT_GT(t.weight, 0);
     // Half a chord: an arc cosine would not tell small angles. 10⁻⁶: rounding of the two directions.
     const double chord = 0.5 * glm::length(glm::dvec3(direction) - glm::dvec3(t.axis));
-    ASSERT_LE(2 * std::asin(std::min(1.0, chord)), std::acos(static_cast<double>(t.cosHalfAngle)) + 1e-6);
+    ASSERT_LE(2 * std::asin(std::min(1.0, chord)), static_cast<double>(t.halfAngle) + 1e-6);
     if (!isBlack(radiance)) {
       ASSERT_GT(light_.pdf(*tile, uv), 0) << "a lit direction that is never sampled";
     }
@@ -103,7 +103,7 @@ TEST_P(Skies, EveryLitTexelHasATileAndADensity) {
 TEST_P(Skies, WeightsAreTheEnergyOfTheirTiles) {
   // The sum of the tiles against quadrature over the sphere.
   double sum = 0;
-  for (const EnvironmentTile& tile : light_.tiles()) sum += static_cast<double>(tile.weight);
+  for (const EnvironmentTile& tile : light_.tiles()) sum += tile.weight;
   constexpr int kSide = 600;
   double energy = 0;
   for (int y = 0; y < kSide; ++y) {
@@ -235,6 +235,32 @@ TEST(EnvironmentLight, DimTexelAmongBrightOnesKeepsItsDensity) {
       const auto tile = light.tileAt(uv);
       ASSERT_TRUE(tile);
       ASSERT_GT(light.pdf(*tile, uv), 0);
+    }
+  }
+}
+
+TEST(EnvironmentLight, DensitiesOfADimSkyAreThoseOfABrightOne) {
+  const auto sky = [](float radiance) {
+    Environment environment;
+    environment.radiance = ImageRgb(2048, 1024);
+    for (Vec3& texel : environment.radiance) texel = Vec3(0);
+    // Beside the pole, where a texel's solid angle is smallest, and near the equator.
+    environment.radiance.at(100, 1) = environment.radiance.at(1000, 450) = Vec3(radiance);
+    return environment;
+  };
+  const Environment bright = sky(1);
+  const EnvironmentLight reference(bright);
+  for (const int exponent : {-100, -140, 100}) {
+    const Environment scaled = sky(std::ldexp(1.0f, exponent));
+    const EnvironmentLight light(scaled);
+    ASSERT_EQ(light.tiles().size(), reference.tiles().size());
+    for (std::size_t i = 0; i < light.tiles().size(); ++i) {
+      const EnvironmentLight::Sample sample = light.sample(i, Vec2(0.5f)), expected = reference.sample(i, Vec2(0.5f));
+      EXPECT_EQ(sample.uv, expected.uv);
+      EXPECT_EQ(sample.pdf, expected.pdf);
+      EXPECT_EQ(light.pdf(i, sample.uv), expected.pdf);
+      EXPECT_TRUE(std::isfinite(sample.pdf));
+      EXPECT_EQ(light.tiles()[i].weight, std::ldexp(reference.tiles()[i].weight, exponent));
     }
   }
 }
