@@ -16,8 +16,8 @@ namespace cellcut {
 namespace {
 
 constexpr const char* kExplanations = R"(
-Beside OUT.png an OUT.json says what the overlay shows: minimum, maximum, mean, the share of cells touched, and with --pick
-the inspector's table. --size is that of the PNG; with panels the rendering is what is left of it.
+Beside OUT.png an OUT.json says what the overlay shows: minimum, maximum, mean, the share of cells touched, and with
+--pick the inspector's table. --size is that of the PNG; with panels the rendering is what is left of it.
 
 Examples:
   cellcut screenshot room.glb -o room.png --overlay cut-size --spp 16
@@ -69,7 +69,7 @@ void addOverlayOptions(CLI::App& verb, OverlayChoice& overlay) {
         overlay.overlay = named<decltype(kOverlays), Overlay>(
             kOverlays, [](const OverlayName& o) { return o.overlay; }, "--overlay", t);
       },
-      "none, touched, visits, cut-size, estimate, tree-depth, variance, samples, error or nan");
+      "touched, visits, cut-size, estimate, tree-depth, variance, samples, error, nan, none");
   add(
       "--overlay-range", "A:B",
       [&overlay](const std::string& t) {

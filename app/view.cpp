@@ -19,7 +19,8 @@ F1 shows the keys. --size is the window's. Without --spp, --time and --noise ren
 --headless needs no display; with --script it replays input, one action a line, and stops at its end:
   size W H | click LABEL | set LABEL VALUE | drag left|middle|right X0 Y0 X1 Y1 | scroll X Y DY | key NAME | pick X Y
   drop FILE | wait spp N | wait idle | screenshot FILE | expect LABEL VALUE | quit
-Labels of several words stand in quotes. A label that is not there and an expectation that fails end it with exit code 2.
+Labels of several words stand in quotes. A label that is not there, or an expectation that fails, ends it with exit
+code 2.
 
 Examples:
   cellcut                                    a generated building with 4,000 lamps

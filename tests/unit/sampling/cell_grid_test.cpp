@@ -2,6 +2,7 @@
 
 #include "renderer/base/rng.h"
 #include "renderer/sampling/cell_cut.h"
+#include "renderer/sampling/inspection.h"
 #include "renderer/sampling/facing.h"
 #include "tests/support/scenes.h"
 
@@ -48,7 +49,7 @@ TEST(CellCut, WithoutPilotCellsAreOfTheScenesSize) {
     }
     const Lights lights(scene);
     const CellCutSampler sampler(lights, {.gridResolution = 16}, {});
-    EXPECT_EQ(sampler.grid().cellSize(), static_cast<double>(scale) / 4);
+    EXPECT_EQ(CutInspector::of(sampler)->grid()->cellSize(), static_cast<double>(scale) / 4);
   }
 }
 
