@@ -2,7 +2,6 @@
 
 #include "renderer/trace/pilot.h"
 
-
 namespace cellcut {
 std::unique_ptr<LightSampler> makeLightSampler(const PreparedScene& prepared, const RenderSettings& settings) {
   const Scene& scene = prepared.scene;

@@ -138,8 +138,7 @@ TEST_P(AnalyticScene, WhiteFurnaceIsWhite) {
   expectMean(scene, 1, 0.002, 60);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, AnalyticScene, testing::ValuesIn(kSamplerVariants),
-                         variantName);
+INSTANTIATE_TEST_SUITE_P(Every, AnalyticScene, testing::ValuesIn(kSamplerVariants), variantName);
 
 }  // namespace
 }  // namespace cellcut::test

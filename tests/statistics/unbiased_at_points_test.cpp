@@ -151,8 +151,7 @@ TEST_P(QuadLight, CoversTheHemisphereOfAPointCloseToIt) {
   tests.finish(1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, QuadLight, testing::ValuesIn(kSamplerVariants),
-                         variantName);
+INSTANTIATE_TEST_SUITE_P(Every, QuadLight, testing::ValuesIn(kSamplerVariants), variantName);
 
 }  // namespace
 }  // namespace cellcut::test

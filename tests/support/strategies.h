@@ -20,9 +20,8 @@ struct SamplerVariant {
 
   /// A descent by bounds can end where no light is left.
   bool canEndInNothing() const {
-    return strategy == Strategy::kLightTree ||
-           ((strategy == Strategy::kCellCut || strategy == Strategy::kPointCut) &&
-            settings.inCluster == InCluster::kDescent);
+    return strategy == Strategy::kLightTree || ((strategy == Strategy::kCellCut || strategy == Strategy::kPointCut) &&
+                                                settings.inCluster == InCluster::kDescent);
   }
   friend void PrintTo(const SamplerVariant& variant, std::ostream* stream) { *stream << variant.name; }
 };
@@ -66,8 +65,8 @@ inline std::string strategyAndLightsName(const testing::TestParamInfo<StrategyAn
 }  // namespace cellcut::test
 
 /// Makes the tests of a fixture derived from StrategyAndLights run for all strategies and lights.
-#define CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(Fixture)                                                          \
-  INSTANTIATE_TEST_SUITE_P(                                                                                     \
-      Every, Fixture,                                                                                           \
-      testing::Combine(testing::ValuesIn(cellcut::test::kSamplerVariants), testing::ValuesIn(cellcut::test::kLightMixes)), \
-      cellcut::test::strategyAndLightsName)
+#define CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(Fixture)                                          \
+  INSTANTIATE_TEST_SUITE_P(Every, Fixture,                                                      \
+                           testing::Combine(testing::ValuesIn(cellcut::test::kSamplerVariants), \
+                                            testing::ValuesIn(cellcut::test::kLightMixes)),     \
+                           cellcut::test::strategyAndLightsName)

@@ -141,7 +141,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   for (const StrategyName& s : kStrategies) EXPECT_THAT(script, HasSubstr(std::string(s.name)));
   for (const Quality& q : kQualities) EXPECT_THAT(script, HasSubstr(std::string(q.name)));
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
-  for (const std::string verb : allVerbs()) {
+  for (const std::string& verb : allVerbs()) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render compare generate info"));
     std::istringstream help(run({verb, "--help"}).out);
     for (std::string word; help >> word;) {

@@ -2,8 +2,8 @@
 
 #include "renderer/base/rng.h"
 #include "renderer/sampling/cell_cut.h"
-#include "renderer/sampling/inspection.h"
 #include "renderer/sampling/facing.h"
+#include "renderer/sampling/inspection.h"
 #include "tests/support/scenes.h"
 
 #include <chrono>
