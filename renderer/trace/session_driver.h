@@ -84,7 +84,7 @@ class SessionDriver {
   std::vector<Job> jobs_;
   bool stop_ = false;
   bool workersDone_ = false;
-  bool grace_ = false;  ///< edits leave the pass in flight alone for now
+  bool grace_ = false;  ///< a preview is in flight that edits let finish: kPreviewGrace
   bool resting_ = false;
   std::shared_ptr<const Snapshot> snapshot_ = std::make_shared<const Snapshot>();
 
