@@ -5,7 +5,7 @@
 /// it; there is no transmission.
 #pragma once
 
-#include "renderer/base/math.h"
+#include "renderer/scene/ggx_albedo.h"
 
 #include <optional>
 
@@ -42,21 +42,16 @@ class Bsdf {
   std::optional<BsdfSample> sample(const Vec3& wo, float uLobe, Vec2 u) const;
 
  private:
-  float reflectionProbability(const Vec3& wo) const;
+  /// \param albedo  GgxAlbedo of the direction
+  float reflectionProbability(Vec2 albedo) const;
 
   Vec3 diffuse_;  ///< scaled: see the constructor
   Vec3 f0_;
   float f90_;
-  float dielectricF0_;
-  float dielectricF90_;
+  Vec2 layer_;  ///< F0 and F90 of the dielectric alone
+  GgxAlbedo albedo_;
   float alpha_;
   bool reflects_;  ///< false: exactly Lambertian
 };
-
-/// Schlick 1994.
-inline float schlickWeight(float cosine) {
-  const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
-  return (m * m) * (m * m) * m;
-}
 
 }  // namespace cellcut
