@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
 #include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -205,6 +206,8 @@ ImageRgb decodeExr(std::span<const std::byte> encoded, const std::string& name) 
     const Window data = toWindow(header.dataWindow());
     return placeInDisplay(readWindow(file, part, data), data, toWindow(header.displayWindow()));
   } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {  // the library throws Iex::BaseExc and what the standard library throws
     throw InputError(name, "cannot be decoded (" + reason(problem) + ")");

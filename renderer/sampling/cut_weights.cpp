@@ -16,12 +16,9 @@ using Tag = hn::CappedTag<float, kClusterBlock>;
 using Floats = hn::Vec<Tag>;
 constexpr Tag kTag;
 
-struct Floats3 {
-  Floats x, y, z;
-};
-
-Floats dot(const Floats3& a, const Floats3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+// Vectors of arm64's SVE have no size, so they are no members of a struct: three arguments each.
+Floats dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
+  return hn::MulAdd(ax, bx, hn::MulAdd(ay, by, hn::Mul(az, bz)));
 }
 Floats sineOf(Floats cosine) {
   return hn::Sqrt(hn::Max(hn::Zero(kTag), hn::NegMulAdd(cosine, cosine, hn::Set(kTag, 1.0f))));
@@ -39,21 +36,22 @@ Floats receiverCosines(Floats cosTheta, Floats cosU, Floats sinU) {
 }
 
 /// localCluster() of cut.cpp for a region of radius 0, times receiverCosine.
-Floats weigh(const BlockedFloats& near, std::size_t i, const Floats3& p, const Floats3& n) {
+Floats weigh(const BlockedFloats& near, std::size_t i, const Vec3& p, const Vec3& n) {
   const auto load = [&](std::size_t field) { return hn::Load(kTag, near.field(field) + i); };
   const auto one = hn::Set(kTag, 1.0f), zero = hn::Zero(kTag), margin = hn::Set(kTag, kCosineMargin);
-  const Floats3 to{hn::Sub(load(kCentreX), p.x), hn::Sub(load(kCentreY), p.y), hn::Sub(load(kCentreZ), p.z)};
-  const auto distance = hn::Sqrt(dot(to, to));
+  const auto toX = hn::Sub(load(kCentreX), hn::Set(kTag, p.x)), toY = hn::Sub(load(kCentreY), hn::Set(kTag, p.y)),
+             toZ = hn::Sub(load(kCentreZ), hn::Set(kTag, p.z));
+  const auto distance = hn::Sqrt(dot(toX, toY, toZ, toX, toY, toZ));
   const auto radius = load(kRadius);
   const auto reach = hn::Mul(radius, hn::Set(kTag, kReachMargin));
   const auto inside = hn::Ge(reach, distance);
   const auto perDistance = hn::Div(one, hn::IfThenElse(inside, one, distance));
-  const Floats3 direction{hn::Mul(to.x, perDistance), hn::Mul(to.y, perDistance), hn::Mul(to.z, perDistance)};
+  const auto directionX = hn::Mul(toX, perDistance), directionY = hn::Mul(toY, perDistance),
+             directionZ = hn::Mul(toZ, perDistance);
   const auto sinU = hn::Mul(reach, perDistance);
   const auto cosU = sineOf(sinU);
 
-  const Floats3 axis{load(kAxisX), load(kAxisY), load(kAxisZ)};
-  const auto towards = hn::Neg(dot(axis, direction));
+  const auto towards = hn::Neg(dot(load(kAxisX), load(kAxisY), load(kAxisZ), directionX, directionY, directionZ));
   const auto cosTheta = hn::IfThenElse(hn::Gt(load(kTwoSided), zero), hn::Abs(towards), towards);
   const auto sinTheta = sinesAbove(cosTheta);
   const auto cosO = load(kCosThetaO), sinO = load(kSinThetaO);
@@ -64,7 +62,8 @@ Floats weigh(const BlockedFloats& near, std::size_t i, const Floats3& p, const F
   const auto reaches = hn::Ge(cosEmit, hn::Sub(load(kCosThetaE), margin));
   const auto emission = hn::IfThenElseZero(reaches, hn::Max(cosEmit, margin));
 
-  const auto receiver = receiverCosines(dot(n, direction), cosU, sinU);
+  const auto receiver = receiverCosines(
+      dot(hn::Set(kTag, n.x), hn::Set(kTag, n.y), hn::Set(kTag, n.z), directionX, directionY, directionZ), cosU, sinU);
   const auto factor = hn::IfThenElse(inside, one, hn::Mul(emission, receiver));
   const auto q = hn::Div(radius, hn::Max(hn::MulAdd(hn::Set(kTag, 1.1547f), radius, distance),
                                          hn::Set(kTag, std::numeric_limits<float>::min())));
@@ -76,13 +75,11 @@ Floats weigh(const BlockedFloats& near, std::size_t i, const Floats3& p, const F
 double nearWeightsSimd(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* HWY_RESTRICT weights,
                        float* HWY_RESTRICT blockSums) {
   const std::size_t lanes = hn::Lanes(kTag);
-  const Floats3 point{hn::Set(kTag, p.x), hn::Set(kTag, p.y), hn::Set(kTag, p.z)};
-  const Floats3 normal{hn::Set(kTag, n.x), hn::Set(kTag, n.y), hn::Set(kTag, n.z)};
   double sum = 0;
   for (std::size_t block = 0; block < near.blocks(); ++block) {
     auto blockSum = hn::Zero(kTag);
     for (std::size_t i = block * kClusterBlock; i < (block + 1) * kClusterBlock; i += lanes) {
-      const auto weight = weigh(near, i, point, normal);
+      const auto weight = weigh(near, i, p, n);
       hn::Store(weight, kTag, weights + i);
       blockSum = hn::Add(blockSum, weight);
     }

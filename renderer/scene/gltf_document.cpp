@@ -7,6 +7,7 @@
 #include "renderer/scene/scene_folder.h"
 
 #include <cstring>
+#include <new>
 #include <optional>
 
 namespace cellcut {
@@ -103,6 +104,8 @@ bool parse(std::span<const std::byte> file, ParseContext& context, tinygltf::Mod
                                                               reinterpret_cast<const unsigned char*>(file.data()), size)
                                 : parser.LoadASCIIFromString(&model, &errors, &warnings,
                                                              reinterpret_cast<const char*>(file.data()), size, "");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {  // the JSON library's, and at() on empty buffers
     errors += error.what();
   }
@@ -128,6 +131,7 @@ GltfDocument readGltf(const std::filesystem::path& file) {
   const SceneFolder folder(file);
   // One byte less than the limit: the parser counts in 32 bits.
   const std::vector<std::byte> bytes = readFile(file, kMaxSceneFileBytes - 1);
+  if (bytes.empty()) throw InputError(document.name, "is empty");
   checkJsonShape(gltfJson(bytes, document.name), document.name);
 
   ParseContext context{folder, document.images};

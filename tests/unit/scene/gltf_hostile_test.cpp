@@ -286,6 +286,7 @@ TEST_F(HostileGltf, RefusesBuffersAndImagesOutsideOfTheFolder) {
 TEST_F(HostileGltf, RefusesWhatIsNoSceneFile) {
   EXPECT_THAT(refusalOf(folder / "missing.glb"), HasSubstr("missing.glb"));
   EXPECT_NE(refusalOf(folder.path()), "was not refused");
+  EXPECT_THAT(refusalOf(test::writeFile(folder / "empty.glb", "")), HasSubstr("empty.glb: is empty"));
   EXPECT_THAT(refusalOf(test::writeFile(folder / "a.fbx", "x")), HasSubstr(".gltf"));
   for (const char* text :
        {"", "{", "[]", "null", "{}", "{\"asset\":1}", "{\"asset\":{\"version\":2}}", "1e999", "\xFF\xFE"}) {

@@ -1,5 +1,6 @@
 #include "renderer/trace/worker_pool.h"
 
+#include <algorithm>
 #include <numeric>
 #include <semaphore>
 #include <stdexcept>

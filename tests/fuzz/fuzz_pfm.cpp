@@ -1,0 +1,6 @@
+#include "renderer/base/image_codecs.h"
+#include "tests/fuzz/fuzzing.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return cellcut::fuzz::read([=] { cellcut::decodePfm(cellcut::fuzz::bytes(data, size), "fuzz"); });
+}
