@@ -3,6 +3,7 @@
 #include "app/interrupt.h"
 #include "app/measure_options.h"
 #include "app/measure_progress.h"
+#include "app/measure_report.h"
 #include "app/measure_results.h"
 #include "app/measure_summary.h"
 #include "app/output.h"
@@ -10,6 +11,8 @@
 #include "app/scene_hash.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
+#include "renderer/measure/metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,17 +37,20 @@ std::string helpText() {
   return text + R"(
 (max-depth of every strategy, the others of those with cuts; quality: preview, balanced, accurate)
 
-Run 1 of every strategy comes first, then run 2 of every one: a machine that slows down favours none. Errors are taken
-against the reference after 1, 2, 4, 8, ... passes and the last, and between them interpolated on logarithmic axes at
---time; a strategy whose first pass takes longer is compared at the seconds that it took. Values are geometric means over
-the runs, with the 95 % interval by Student's t on their logarithms: errors are positive, skewed and compared by ratios.
+Run 1 of every strategy comes first, then run 2 of every one: a machine that slows down favours none. Errors are
+taken against the reference after 1, 2, 4, 8, ... passes and the last, and between them interpolated on logarithmic
+axes at --time; a strategy whose first pass takes longer is compared at the seconds that it took. Values are geometric
+means over the runs, with the 95 % interval by Student's t on their logarithms: errors are positive, skewed and
+compared by ratios.
 
-The reference is made once by cell-cut in batches of different seeds and kept in $XDG_CACHE_HOME/cellcut by the content
-of scene, camera, size and depth. How far the batches differ tells its own error; it is refused (exit code 2) when its
-relMSE is more than a tenth of one that it is to judge.
+The reference is made once by cell-cut in batches of different seeds and kept in $XDG_CACHE_HOME/cellcut by the
+content of scene, camera, size and depth. How far the batches differ tells its own error; it is refused (exit code 2)
+when its relMSE is more than a tenth of one that it is to judge. That of --reference is estimated from what two runs'
+differences from it have in common.
 
-FOLDER gets results.json (everything), results.csv, images/ and scenes/ (of recipes). Ctrl-C keeps every finished run and
---resume goes on; with more --runs, --strategies or --sweep it adds to what is there.
+FOLDER gets results.json (everything), results.csv, report.html (a page that needs no network), images/ and scenes/
+(of recipes). Ctrl-C keeps every finished run and --resume goes on; with more --runs, --strategies or --sweep it adds
+to what is there.
 
 Columns of results.csv; those of seconds and errors are followed by NAME_low and NAME_high, their intervals:
 )" + csvHelp() +
@@ -117,6 +123,11 @@ void writeResults(const Work& work) {
   writeBytes(work.options.folder / "results.csv", std::as_bytes(std::span(csv)));
 }
 
+void writeReport(const Work& work) {
+  const std::string page = reportPage(resultsJson(work.results, work.options), work.options.folder);
+  writeBytes(work.options.folder / "report.html", std::as_bytes(std::span(page)));
+}
+
 /// The same picture as it is and as a person sees it.
 void writeImage(const Work& work, const std::string& name, const ImageRgb& picture,
                 std::map<std::string, std::string> metadata) {
@@ -173,8 +184,10 @@ bool prepareCase(Work& work, const Scene& scene, std::size_t index) {
   }
   if (work.options.reference) {
     record.reference = readReference(*work.options.reference, settings);
-    work.console.err << "cellcut: warning: nothing is known of the error of " << work.options.reference->string()
-                     << "; below it no error can be measured\n";
+    if (work.options.runs < 2) {
+      work.console.err << "cellcut: warning: with a single run nothing is known of the error of "
+                       << work.options.reference->string() << "; below it no error can be measured\n";
+    }
   } else {
     record.reference = madeReference(work, scene, index);
   }
@@ -204,7 +217,7 @@ std::string describe(const MeasureResults& results, std::size_t configuration, i
 bool doRun(Work& work, const Scene& scene, std::size_t configuration, int run) {
   const MeasureOptions& o = work.options;
   const Configuration& c = work.results.plan.configurations[configuration];
-  const Reference& reference = *work.results.cases[c.caseIndex].reference;
+  Reference& reference = *work.results.cases[c.caseIndex].reference;
   RenderSettings settings = settingsOf(o, work.results.plan, c);
   settings.camera = findCamera(scene, o.picture.camera);
   settings.seed = o.picture.settings.seed + static_cast<std::uint64_t>(run);
@@ -218,6 +231,10 @@ bool doRun(Work& work, const Scene& scene, std::size_t configuration, int run) {
   const auto measured = measureRun(scene, settings, limit, reference.picture, work.cancel, onPass);
   if (!measured) return false;
   const Checkpoint& last = measured->checkpoints.back();
+  if (std::isnan(reference.relmse) && run > 0) {
+    const ImageRgb first = readImage(work.image(c.name + ".exr"));  // of run 0, whose seed is another
+    reference.relmse = std::max(0.0, referenceError(first, measured->picture, reference.picture));
+  }
   requireFineReference(reference, last.relmse);
   if (run == 0) {
     writeImage(work, c.name, measured->picture,
@@ -297,6 +314,7 @@ int measure(const MeasureOptions& options, const Console& console) {
   for (std::size_t i = 0; i < results.cases.size(); ++i) {
     const Scene& scene = scenes.of(results.plan.cases[i]);
     findCamera(scene, options.picture.camera);
+    for (const std::string& warning : scene.warnings) console.err << "cellcut: warning: " << warning << '\n';
     results.cases[i].sceneHash = hashOfScene(scene);
     results.cases[i].lights = lightCounts(scene);
   }
@@ -316,6 +334,7 @@ int measure(const MeasureOptions& options, const Console& console) {
   writeResults(work);
   if (!complete) console.err << "cellcut: interrupted; the same command with --resume goes on\n";
   if (results.runs.empty()) return complete ? kDone : kFailed;
+  writeReport(work);
   showEqualTime(work);
   console.err << "wrote " << options.folder.string() << '\n';
   return kDone;

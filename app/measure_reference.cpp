@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kFewestBatches = 4;  // fewer say too little of how far they differ
 constexpr std::uint64_t kBatches = 16;       // of a reference whose passes are given
 constexpr std::uint64_t kMostBatchPasses = 256;
-constexpr std::uint64_t kUnaskedBatchPasses = 64;
+constexpr std::uint64_t kUnaskedBatchPasses = 32;
 constexpr std::uint64_t kSeed = 0x7265666572656e63ull;  // far from the seeds that people choose
 constexpr std::uint64_t kFormat = 1;                    // of the cache's files
 

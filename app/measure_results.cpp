@@ -4,6 +4,7 @@
 #include "app/report.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
+#include "renderer/measure/convergence.h"
 
 #include <algorithm>
 #include <array>
@@ -161,6 +162,29 @@ Json gainsJson(const MeasureResults& results, std::optional<double> seconds) {
   return gains;
 }
 
+/// What of everything that was measured on a case is worth its time.
+Json frontsJson(const MeasureResults& results, const std::vector<SummaryRow>& rows) {
+  Json fronts = Json::array();
+  for (std::size_t i = 0; i < results.plan.cases.size(); ++i) {
+    std::vector<const SummaryRow*> own;
+    std::vector<CurvePoint> points;
+    for (const SummaryRow& row : rows) {
+      if (results.plan.configurations[row.configuration].caseIndex != i) continue;
+      own.push_back(&row);
+      points.push_back({row.seconds.value, row.relmse.value});
+    }
+    Json front = Json::array();
+    for (const std::size_t k : paretoFront(points)) {
+      front.push_back({{"configuration", results.plan.configurations[own[k]->configuration].name},
+                       {"spp", own[k]->passes},
+                       {"seconds", points[k].x},
+                       {"relmse", points[k].y}});
+    }
+    fronts.push_back({{"case", results.plan.cases[i].name}, {"points", front}});
+  }
+  return fronts;
+}
+
 void takeOverCase(MeasureResults& results, const Json& json, const std::string& file) {
   const auto& cases = results.plan.cases;
   const auto same =
@@ -229,7 +253,9 @@ Json resultsJson(const MeasureResults& results, const MeasureOptions& options) {
     json["cases"].push_back(caseJson(results.plan.cases[i], results.cases[i]));
   for (const Configuration& c : results.plan.configurations)
     json["configurations"].push_back(configurationJson(results.plan, c));
-  for (const SummaryRow& row : summaryOf(results, seconds)) json["summary"].push_back(rowJson(results.plan, row));
+  const std::vector<SummaryRow> rows = summaryOf(results, seconds);
+  for (const SummaryRow& row : rows) json["summary"].push_back(rowJson(results.plan, row));
+  json["fronts"] = frontsJson(results, rows);
   json["slopes"] = slopesJson(results);
   json["cell_cut_gains"] = gainsJson(results, seconds);
   for (const RunRecord& run : results.runs) json["runs"].push_back(runJson(results.plan, run));

@@ -74,7 +74,7 @@ void addStopRule(CLI::App& verb, StopRule& stop) {
   CLI::Option* timeOption =
       addText(verb, "--time", "SECONDS", time, "Stop at the end of the pass in which SECONDS of rendering run out");
   CLI::Option* noiseOption =
-      addText(verb, "--noise", "REL", noise, "Stop when the estimated relative error is below REL; see below");
+      addText(verb, "--noise", "REL", noise, "Stop when the relative error is below REL; see below");
   sppOption->excludes(timeOption)->excludes(noiseOption);
   timeOption->excludes(noiseOption);
 }

@@ -97,4 +97,14 @@ ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
   return result;
 }
 
+double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference) {
+  assert(a.size() == b.size() && a.size() == reference.size() && !a.empty());
+  const double mean = meanOf(reference), epsilon = 0.01 * mean * mean;
+  return meanOverPixels(reference.width(), reference.height(), [&](int x, int y) {
+    const glm::dvec3 r(reference.at(x, y));
+    const glm::dvec3 product = (glm::dvec3(a.at(x, y)) - r) * (glm::dvec3(b.at(x, y)) - r), scale = r * r + epsilon;
+    return channelMean({ratio(product.x, scale.x), ratio(product.y, scale.y), ratio(product.z, scale.z)});
+  });
+}
+
 }  // namespace cellcut
