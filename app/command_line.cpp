@@ -75,11 +75,12 @@ int parseAndRun(std::span<const char* const> args, const Console& console) {
   program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.footer("Each verb has its own help with examples: cellcut render --help");
 #ifdef CELLCUT_UI
-  const std::array verbs{addView(program),    addScreenshot(program), addRender(program),
+  const std::array verbs{addView(program),    addScreenshot(program), addRender(program), addMeasure(program),
                          addCompare(program), addGenerate(program),   addInfo(program)};
   const std::vector<const char*> completed = withVerb(args, program);
 #else
-  const std::array verbs{addRender(program), addCompare(program), addGenerate(program), addInfo(program)};
+  const std::array verbs{addRender(program), addMeasure(program), addCompare(program), addGenerate(program),
+                         addInfo(program)};
   const std::vector<const char*> completed(args.begin(), args.end());
 #endif
   try {

@@ -15,7 +15,9 @@ namespace {
 
 constexpr const char* kExamples =
     "Prints JSON: mse, relmse (per channel (A-B)^2 / (B^2 + epsilon), averaged over channels and pixels), epsilon\n"
-    "(0.01 times the squared mean of B), flip, mean_a, mean_b, max_abs. B is the reference.\n"
+    "(0.01 times the squared mean of B), smape (|A-B| / (|A| + |B| + 0.01 times the mean of B)), flip (HDR-FLIP), "
+    "flip_ldr\n"
+    "(FLIP of the tone-mapped pictures), mean_a, mean_b, max_abs. B is the reference.\n"
     "\n"
     "Example:\n"
     "  cellcut compare noisy.exr reference.exr";
@@ -31,9 +33,9 @@ int comparePictures(const std::string& fileA, const std::string& fileB, const Co
     throw InputError(fileA, "is " + sizeOf(a) + " and " + fileB + " is " + sizeOf(b) + "; only equal sizes compare");
   }
   const ImageComparison c = compareImages(a, b);
-  const nlohmann::ordered_json result = {{"mse", c.mse},       {"relmse", c.relmse}, {"epsilon", c.epsilon},
-                                         {"flip", c.flip},     {"mean_a", c.meanA},  {"mean_b", c.meanB},
-                                         {"max_abs", c.maxAbs}};
+  const nlohmann::ordered_json result = {{"mse", c.mse},      {"relmse", c.relmse}, {"epsilon", c.epsilon},
+                                         {"smape", c.smape},  {"flip", c.flip},     {"flip_ldr", c.flipLdr},
+                                         {"mean_a", c.meanA}, {"mean_b", c.meanB},  {"max_abs", c.maxAbs}};
   console.out << result.dump(2) << '\n';
   return kDone;
 }

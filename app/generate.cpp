@@ -23,9 +23,9 @@ struct GenerateOptions {
 };
 
 Recipe parseRecipe(const std::string& name) {
+  if (const auto recipe = recipeFromName(name)) return *recipe;
   std::string known;
   for (const RecipeName& recipe : kRecipes) {
-    if (recipe.name == name) return recipe.recipe;
     known += (known.empty() ? "" : ", ") + std::string(recipe.name);
   }
   throw InputError("RECIPE", "'" + name + "' is none of " + known);

@@ -19,32 +19,10 @@ CLI::Option* addText(CLI::App& verb, const std::string& name, const std::string&
   return verb.add_option_function<std::string>(name, use, description)->type_name(type);
 }
 
-Strategy parseStrategy(const std::string& name) {
-  if (const auto strategy = strategyFromName(name)) return *strategy;
-  std::string known;
-  for (const StrategyName& s : kStrategies) known += (known.empty() ? "" : ", ") + std::string(s.name);
-  throw InputError("--strategy", "'" + name + "' is none of " + known);
-}
-
 PixelSampling parseSampler(const std::string& name) {
   if (name == "sobol") return PixelSampling::kSobol;
   if (name == "independent") return PixelSampling::kIndependent;
   throw InputError("--sampler", "'" + name + "' is none of sobol, independent");
-}
-
-InCluster parseInCluster(const std::string& name) {
-  if (name == "intensity") return InCluster::kIntensity;
-  if (name == "descent") return InCluster::kDescent;
-  throw InputError("--in-cluster", "'" + name + "' is none of intensity, descent");
-}
-
-const Quality& parseQuality(const std::string& name) {
-  std::string known;
-  for (const Quality& q : kQualities) {
-    if (q.name == name) return q;
-    known += (known.empty() ? "" : ", ") + std::string(q.name);
-  }
-  throw InputError("--quality", "'" + name + "' is none of " + known);
 }
 
 double parsePunctualScale(const std::string& text) {
@@ -96,24 +74,26 @@ void addStopRule(CLI::App& verb, StopRule& stop) {
   CLI::Option* timeOption =
       addText(verb, "--time", "SECONDS", time, "Stop at the end of the pass in which SECONDS of rendering run out");
   CLI::Option* noiseOption =
-      addText(verb, "--noise", "REL", noise, "Stop when the estimated relative error is below REL; see below");
+      addText(verb, "--noise", "REL", noise, "Stop when the relative error is below REL; see below");
   sppOption->excludes(timeOption)->excludes(noiseOption);
   timeOption->excludes(noiseOption);
 }
 
-void addSampling(CLI::App& verb, RenderSettings& s) {
+void addStrategy(CLI::App& verb, RenderSettings& s) {
   addText(
-      verb, "--strategy", "NAME", [&s](const std::string& t) { s.strategy = parseStrategy(t); },
+      verb, "--strategy", "NAME", [&s](const std::string& t) { s.strategy = parseStrategy("--strategy", t); },
       "How a light is chosen; see below (default " + std::string(nameOf(s.strategy)) + ")");
+}
+
+void addSampling(CLI::App& verb, RenderSettings& s) {
   addText(
       verb, "--sampler", "NAME", [&s](const std::string& t) { s.sampling = parseSampler(t); },
       "Random numbers: sobol (Owen-scrambled) or independent (default sobol)");
   addText(
       verb, "--size", "WxH", [&s](const std::string& t) { parseSize(t, s); },
-      "Pixels, each side up to " + std::to_string(kMaxPictureSide) + " (default 1280x720)");
-  const auto depth = [&s](const std::string& t) {
-    s.maxDepth = static_cast<int>(parseWhole("--max-depth", t, {.most = kMaxDepthLimit}));
-  };
+      "Pixels, each side up to " + std::to_string(kMaxPictureSide) + " (default " + std::to_string(s.width) + "x" +
+          std::to_string(s.height) + ")");
+  const auto depth = [&s](const std::string& t) { s.maxDepth = parseMaxDepth("--max-depth", t); };
   addText(verb, "--max-depth", "D", depth,
           "Times a path may scatter: 0 emitters only, 1 direct light only (default 8)");
   addText(
@@ -129,23 +109,20 @@ void addCuts(CLI::App& verb, SamplerSettings& s) {
   // Options are applied in the order in which they are declared here, whatever their order on the command line: an
   // explicit one wins over the preset.
   addText(
-      verb, "--quality", "NAME", [&s](const std::string& t) { s = parseQuality(t).settings; },
+      verb, "--quality", "NAME", [&s](const std::string& t) { s = parseQuality("--quality", t).settings; },
       "Preset of the next four options; see below (default balanced)");
-  const auto threshold = [&s](const std::string& t) {
-    s.threshold = static_cast<float>(parseReal("--threshold", t, {.least = 0, .most = 1}));
-  };
+  const auto threshold = [&s](const std::string& t) { s.threshold = parseThreshold("--threshold", t); };
   addText(verb, "--threshold", "X", threshold, "Split clusters above this share of a cut's estimate (default 0.002)");
-  const auto maxCut = [&s](const std::string& t) {
-    s.maxCut = static_cast<int>(parseWhole("--max-cut", t, {.least = 2, .most = kMaxCutSize}));
-  };
+  const auto maxCut = [&s](const std::string& t) { s.maxCut = parseMaxCut("--max-cut", t); };
   addText(verb, "--max-cut", "K", maxCut, "Most clusters of a cut (default " + std::to_string(s.maxCut) + ")");
   const auto resolution = [&s](const std::string& t) {
-    s.gridResolution = static_cast<int>(parseWhole("--grid-resolution", t, {.least = 1, .most = kMaxGridResolution}));
+    s.gridResolution = parseGridResolution("--grid-resolution", t);
   };
   addText(verb, "--grid-resolution", "R", resolution,
           "Cells along the longest axis of what is seen (default " + std::to_string(s.gridResolution) + ")");
   addText(
-      verb, "--in-cluster", "intensity|descent", [&s](const std::string& t) { s.inCluster = parseInCluster(t); },
+      verb, "--in-cluster", "intensity|descent",
+      [&s](const std::string& t) { s.inCluster = parseInCluster("--in-cluster", t); },
       "How a light is chosen inside a cluster (default descent)");
   const auto memory = [&s](const std::string& t) {
     s.cellMemory = static_cast<std::size_t>(parseWhole("--cell-memory", t, {.most = kMaxCellMegabytes})) << 20;
@@ -184,6 +161,44 @@ std::string describeCameras(const Scene& scene) {
 
 }  // namespace
 
+Strategy parseStrategy(const std::string& option, const std::string& name) {
+  if (const auto strategy = strategyFromName(name)) return *strategy;
+  std::string known;
+  for (const StrategyName& s : kStrategies) known += (known.empty() ? "" : ", ") + std::string(s.name);
+  throw InputError(option, "'" + name + "' is none of " + known);
+}
+
+InCluster parseInCluster(const std::string& option, const std::string& name) {
+  if (name == "intensity") return InCluster::kIntensity;
+  if (name == "descent") return InCluster::kDescent;
+  throw InputError(option, "'" + name + "' is none of intensity, descent");
+}
+
+const Quality& parseQuality(const std::string& option, const std::string& name) {
+  std::string known;
+  for (const Quality& q : kQualities) {
+    if (q.name == name) return q;
+    known += (known.empty() ? "" : ", ") + std::string(q.name);
+  }
+  throw InputError(option, "'" + name + "' is none of " + known);
+}
+
+float parseThreshold(const std::string& option, const std::string& text) {
+  return static_cast<float>(parseReal(option, text, {.least = 0, .most = 1}));
+}
+
+int parseMaxCut(const std::string& option, const std::string& text) {
+  return static_cast<int>(parseWhole(option, text, {.least = 2, .most = kMaxCutSize}));
+}
+
+int parseGridResolution(const std::string& option, const std::string& text) {
+  return static_cast<int>(parseWhole(option, text, {.least = 1, .most = kMaxGridResolution}));
+}
+
+int parseMaxDepth(const std::string& option, const std::string& text) {
+  return static_cast<int>(parseWhole(option, text, {.most = kMaxDepthLimit}));
+}
+
 void addRenderOptions(CLI::App& verb, RenderOptions& options) {
   addFiles(verb, options);
   addPictureOptions(verb, options);
@@ -191,6 +206,11 @@ void addRenderOptions(CLI::App& verb, RenderOptions& options) {
 
 void addPictureOptions(CLI::App& verb, RenderOptions& options) {
   addStopRule(verb, options.stop);
+  addStrategy(verb, options.settings);
+  addSettingOptions(verb, options);
+}
+
+void addSettingOptions(CLI::App& verb, RenderOptions& options) {
   addSampling(verb, options.settings);
   addCuts(verb, options.settings.sampler);
   addView(verb, options);

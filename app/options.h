@@ -47,6 +47,18 @@ void addRenderOptions(CLI::App& verb, RenderOptions& options);
 /// The same without SCENE, --output and --report: what says how a picture is made and not where it goes.
 void addPictureOptions(CLI::App& verb, RenderOptions& options);
 
+/// The same without --strategy and without the options that say when to stop.
+void addSettingOptions(CLI::App& verb, RenderOptions& options);
+
+/// The value of an option as the options above read it. \throws InputError that names `option` and lists what is known
+Strategy parseStrategy(const std::string& option, const std::string& name);
+InCluster parseInCluster(const std::string& option, const std::string& name);
+const Quality& parseQuality(const std::string& option, const std::string& name);
+float parseThreshold(const std::string& option, const std::string& text);
+int parseMaxCut(const std::string& option, const std::string& text);
+int parseGridResolution(const std::string& option, const std::string& text);
+int parseMaxDepth(const std::string& option, const std::string& text);
+
 /// Index of a camera by its exact name, else by its number from 0. Empty text is the first camera.
 /// \throws InputError that lists the cameras
 std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex);

@@ -27,6 +27,13 @@ std::optional<PictureKind> kindFromExtension(const std::string& extension) {
   return std::nullopt;
 }
 
+LayeredImage oneLayer(const ImageRgb& picture, std::map<std::string, std::string> metadata) {
+  ImageLayer beauty{"", {"R", "G", "B"}, {}};
+  beauty.values.reserve(3 * picture.size());
+  for (const Vec3& p : picture) beauty.values.insert(beauty.values.end(), {p.x, p.y, p.z});
+  return {picture.width(), picture.height(), {std::move(beauty)}, std::move(metadata)};
+}
+
 /// The folder was found writable before the work began, so what fails now (a full disk) is no bad input.
 template <class Write>
 void writeOrFail(const Write& write) {
@@ -39,6 +46,10 @@ void writeOrFail(const Write& write) {
 
 }  // namespace
 
+bool isWritable(const std::filesystem::path& folder) {
+  return access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
 void requireWritable(const std::filesystem::path& file) {
   std::error_code ignored;  // what cannot be looked at fails the tests below
   if (!file.has_filename() || std::filesystem::is_directory(file, ignored)) {
@@ -48,7 +59,7 @@ void requireWritable(const std::filesystem::path& file) {
   if (!std::filesystem::is_directory(folder, ignored)) {
     throw InputError(file.string(), "its folder does not exist; create it first");
   }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+  if (!isWritable(folder)) {
     throw InputError(file.string(), "its folder cannot be written to; choose another or change its permissions");
   }
 }
@@ -61,19 +72,25 @@ Output checkedOutput(const std::filesystem::path& file) {
 }
 
 void writePicture(const Output& output, const Film& film, std::map<std::string, std::string> metadata) {
+  if (output.kind != PictureKind::kExr) return writePicture(output, film.mean());
+  writeOrFail([&] {
+    LayeredImage layers = film.layers();
+    layers.metadata = std::move(metadata);
+    writeExr(output.file, layers);
+  });
+}
+
+void writePicture(const Output& output, const ImageRgb& picture, std::map<std::string, std::string> metadata) {
   writeOrFail([&] {
     switch (output.kind) {
-      case PictureKind::kExr: {
-        LayeredImage layers = film.layers();
-        layers.metadata = std::move(metadata);
-        writeExr(output.file, layers);
+      case PictureKind::kExr:
+        writeExr(output.file, oneLayer(picture, std::move(metadata)));
         break;
-      }
       case PictureKind::kPfm:
-        writePfm(output.file, film.mean());
+        writePfm(output.file, picture);
         break;
       case PictureKind::kPng:
-        writePng(output.file, film.mean());
+        writePng(output.file, picture);
         break;
     }
   });

@@ -3,10 +3,10 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/stopwatch.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
 
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -47,15 +47,6 @@ std::string helpText() {
   }
   return text + kExplanations;
 }
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 void showWarnings(const Scene& scene, std::ostream& err) {
   for (const std::string& warning : scene.warnings) err << "cellcut: warning: " << warning << '\n';

@@ -22,6 +22,7 @@ struct Verb {
 };
 
 Verb addRender(CLI::App& program);
+Verb addMeasure(CLI::App& program);
 Verb addCompare(CLI::App& program);
 Verb addGenerate(CLI::App& program);
 Verb addInfo(CLI::App& program);

@@ -42,6 +42,20 @@ _cellcut_render() {
   esac
 }
 
+_cellcut_measure() {
+  case $prev in
+    -o | --output) COMPREPLY+=($(compgen -d -- "$cur")) ;;
+    --strategies) _cellcut_words "$_cellcut_strategies" ;;
+    --reference) _cellcut_files 'exr|pfm|hdr' ;;
+    --sweep) _cellcut_words 'quality= threshold= max-cut= grid-resolution= in-cluster= max-depth=' ;;
+    --lights | --runs | --reference-spp) ;;
+    measure) _cellcut_words 'rooms street hall kinds' && _cellcut_files 'gltf|glb|obj' ;;
+    *) _cellcut_picture_value ||
+      _cellcut_scene_or "-o --output --strategies --lights --sweep --runs --reference --reference-spp --resume
+        $_cellcut_picture_options" ;;
+  esac
+}
+
 _cellcut_view() {
   case $prev in
     --reference) _cellcut_files 'exr|pfm|hdr' ;;
@@ -82,13 +96,14 @@ _cellcut() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD - 1]}
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    _cellcut_words 'view screenshot render compare generate info --help --version'
+    _cellcut_words 'view screenshot render measure compare generate info --help --version'
     return
   fi
   case ${COMP_WORDS[1]} in
     view) _cellcut_view ;;
     screenshot) _cellcut_screenshot ;;
     render) _cellcut_render ;;
+    measure) _cellcut_measure ;;
     generate) _cellcut_generate ;;
     compare) if [[ $cur == -* ]]; then _cellcut_words '--help'; else _cellcut_files 'exr|pfm|hdr'; fi ;;
     info) if [[ $cur == -* ]]; then _cellcut_words '--help'; else _cellcut_files 'gltf|glb|obj'; fi ;;

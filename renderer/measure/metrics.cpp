@@ -1,5 +1,7 @@
 #include "renderer/measure/metrics.h"
 
+#include "renderer/base/srgb.h"
+#include "renderer/base/tone_map.h"
 #include "renderer/measure/flip.h"
 
 #include <tbb/parallel_for.h>
@@ -34,6 +36,23 @@ double ratio(double square, double scale) {
   return square == 0 ? 0 : square / scale;
 }
 
+double meanOf(const Image<float>& image) {
+  return meanOverPixels(image.width(), image.height(),
+                        [&](int x, int y) { return static_cast<double>(image.at(x, y)); });
+}
+
+/// Linear light of the display that shows the picture.
+ImageRgb displayed(const ImageRgb& image) {
+  ImageRgb result(image.width(), image.height());
+  tbb::parallel_for(0, image.height(), [&](int y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const Vec3 encoded = toneMap(image.at(x, y));
+      for (int c = 0; c < 3; ++c) result.at(x, y)[c] = srgbToLinear(encoded[c]);
+    }
+  });
+  return result;
+}
+
 /// NaN when any difference is.
 double largestDifference(const ImageRgb& a, const ImageRgb& b) {
   double largest = 0;
@@ -66,10 +85,26 @@ ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
     const glm::dvec3 scale = glm::dvec3(b.at(x, y)) * glm::dvec3(b.at(x, y)) + result.epsilon;
     return channelMean({ratio(square.x, scale.x), ratio(square.y, scale.y), ratio(square.z, scale.z)});
   });
-  const Image<float> flip = flipHdr(a, b);
-  result.flip = meanOverPixels(width, height, [&](int x, int y) { return static_cast<double>(flip.at(x, y)); });
+  const double smallest = 0.01 * std::abs(result.meanB);
+  result.smape = meanOverPixels(width, height, [&](int x, int y) {
+    const glm::dvec3 p(a.at(x, y)), q(b.at(x, y));
+    const glm::dvec3 difference = glm::abs(p - q), scale = glm::abs(p) + glm::abs(q) + smallest;
+    return channelMean({ratio(difference.x, scale.x), ratio(difference.y, scale.y), ratio(difference.z, scale.z)});
+  });
+  result.flip = meanOf(flipHdr(a, b));
+  result.flipLdr = meanOf(flipLdr(displayed(a), displayed(b)));
   result.maxAbs = largestDifference(a, b);
   return result;
+}
+
+double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference) {
+  assert(a.size() == b.size() && a.size() == reference.size() && !a.empty());
+  const double mean = meanOf(reference), epsilon = 0.01 * mean * mean;
+  return meanOverPixels(reference.width(), reference.height(), [&](int x, int y) {
+    const glm::dvec3 r(reference.at(x, y));
+    const glm::dvec3 product = (glm::dvec3(a.at(x, y)) - r) * (glm::dvec3(b.at(x, y)) - r), scale = r * r + epsilon;
+    return channelMean({ratio(product.x, scale.x), ratio(product.y, scale.y), ratio(product.z, scale.z)});
+  });
 }
 
 }  // namespace cellcut

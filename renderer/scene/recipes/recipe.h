@@ -26,6 +26,13 @@ inline constexpr std::array kRecipes{
     RecipeName{Recipe::kKinds, "kinds", "all five kinds of light at once, small"},
 };
 
+constexpr std::optional<Recipe> recipeFromName(std::string_view name) {
+  for (const RecipeName& r : kRecipes) {
+    if (r.name == name) return r.recipe;
+  }
+  return std::nullopt;
+}
+
 inline constexpr std::size_t kMaxRecipeLights = 10'000'000;
 
 /// The bytes of a .glb with exactly `lights` lights (an environment, which `kinds`

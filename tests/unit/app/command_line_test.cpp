@@ -52,9 +52,9 @@ void expectRefused(const std::vector<std::string>& arguments, const std::string&
 /// Verbs of this build: those of the viewer come with its packages.
 std::vector<std::string> allVerbs() {
 #ifdef CELLCUT_UI
-  return {"view", "screenshot", "render", "compare", "generate", "info"};
+  return {"view", "screenshot", "render", "measure", "compare", "generate", "info"};
 #else
-  return {"render", "compare", "generate", "info"};
+  return {"render", "measure", "compare", "generate", "info"};
 #endif
 }
 
@@ -63,7 +63,8 @@ TEST(CommandLine, WithoutVerbShowsHelpAndIsBadUsage) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.out, IsEmpty());
-  for (const char* verb : {"render", "compare", "generate", "info"}) EXPECT_THAT(outcome.err, HasSubstr(verb));
+  for (const char* verb : {"render", "measure", "compare", "generate", "info"})
+    EXPECT_THAT(outcome.err, HasSubstr(verb));
 }
 #endif
 
@@ -132,7 +133,9 @@ TEST(CommandLine, CompareReportsTheDifference) {
   EXPECT_DOUBLE_EQ(json.at("mean_a"), 3);
   EXPECT_DOUBLE_EQ(json.at("mean_b"), 2);
   EXPECT_DOUBLE_EQ(json.at("max_abs"), 1);
+  EXPECT_DOUBLE_EQ(json.at("smape"), 1 / 5.02);
   EXPECT_GT(json.at("flip"), 0);
+  EXPECT_GT(json.at("flip_ldr"), 0);
 }
 
 TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
@@ -142,7 +145,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   for (const Quality& q : kQualities) EXPECT_THAT(script, HasSubstr(std::string(q.name)));
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string& verb : allVerbs()) {
-    EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render compare generate info"));
+    EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render measure compare generate info"));
     std::istringstream help(run({verb, "--help"}).out);
     for (std::string word; help >> word;) {
       const std::size_t dashes = word.find("--");

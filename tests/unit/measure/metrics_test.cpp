@@ -32,12 +32,67 @@ TEST(CompareImages, FollowsItsDefinitions) {
   EXPECT_DOUBLE_EQ(c.flip, sum / 2);
 }
 
+TEST(CompareImages, SmapeFollowsItsDefinition) {
+  const TwoPixels p;
+  // ε = 0.01 · mean(B) = 0.02; channels (3,1) (2,2) (1,3) and three times (1,2).
+  EXPECT_DOUBLE_EQ(compareImages(p.a, p.b).smape, (2 / 4.02 + 0 + 2 / 4.02 + 3 * (1 / 3.02)) / 6);
+}
+
+TEST(CompareImages, SmapeStaysBetweenZeroAndOne) {
+  EXPECT_EQ(compareImages(ImageRgb(3, 2), ImageRgb(3, 2)).smape, 0);
+  EXPECT_EQ(compareImages(ImageRgb(3, 2, Vec3(1.0f)), ImageRgb(3, 2)).smape, 1);
+  const double nearlyAll = compareImages(ImageRgb(3, 2), ImageRgb(3, 2, Vec3(1.0f))).smape;
+  EXPECT_DOUBLE_EQ(nearlyAll, 1 / 1.01);
+}
+
+TEST(CompareImages, LdrFlipSeesWhatTheDisplayShows) {
+  const auto flipOf = [](const Vec3& a, const Vec3& b) {
+    return compareImages(ImageRgb(8, 8, a), ImageRgb(8, 8, b)).flipLdr;
+  };
+  // Below its shoulder at 0.8 toneMap() changes nothing, so these are ꟻLIP's own: black against 0.5, and two greys as
+  // computed by hand in flip_test.cpp. Filters in float leave 1e-4.
+  EXPECT_NEAR(flipOf(Vec3(0.5f), Vec3(0.52f)), 0.06581283282068773, 1e-4);
+  EXPECT_NEAR(flipOf(Vec3(0.18f), {0.2f, 0.18f, 0.16f}), 0.11041534912073062, 1e-4);
+  // Far above white two brightnesses look the same, which MSE does not know.
+  EXPECT_LT(flipOf(Vec3(1e6f), Vec3(2e6f)), 1e-3);
+}
+
+TEST(CompareImages, RedIsNotBlueToAnyMetric) {
+  const ImageRgb red(8, 8, Vec3(0.8f, 0, 0)), blue(8, 8, Vec3(0, 0, 0.8f));
+  const ImageComparison c = compareImages(red, blue);
+  EXPECT_EQ(c.meanA, c.meanB);  // a comparison of brightness sees nothing
+  EXPECT_NEAR(c.mse, 2 * 0.64 / 3, 1e-7);
+  EXPECT_GT(c.relmse, 0.1);
+  EXPECT_NEAR(c.smape, 2.0 / 3, 0.01);
+  EXPECT_GT(c.flip, 0.9);
+  EXPECT_GT(c.flipLdr, 0.9);
+}
+
+TEST(ReferenceError, IsWhatTwoNoisyPicturesHaveInCommon) {
+  // Truth 1; both pictures are off by up to ± 0.5, the reference by ± 0.1: its relMSE is 0.01/1.01 of itself, the pictures'
+  // own 0.083. 3 · 10⁴ products of a spread of 0.1 leave 6 · 10⁻⁴.
+  Rng rng(3);
+  ImageRgb a(100, 100), b(100, 100), reference(100, 100);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      a[i][c] = rng.uniform(0.5f, 1.5f);
+      b[i][c] = rng.uniform(0.5f, 1.5f);
+      reference[i][c] = rng.uniform() < 0.5f ? 0.9f : 1.1f;
+    }
+  }
+  EXPECT_NEAR(referenceError(a, b, reference), 0.01, 2e-3);
+  EXPECT_NEAR(referenceError(a, b, ImageRgb(100, 100, Vec3(1))), 0, 2e-3);
+  EXPECT_GT(compareImages(a, reference).relmse, 0.08);
+}
+
 TEST(CompareImages, FindsNoErrorInTheSamePicture) {
   const TwoPixels p;
   const ImageComparison c = compareImages(p.a, p.a);
   EXPECT_EQ(c.mse, 0);
   EXPECT_EQ(c.relmse, 0);
+  EXPECT_EQ(c.smape, 0);
   EXPECT_EQ(c.flip, 0);
+  EXPECT_EQ(c.flipLdr, 0);
   EXPECT_EQ(c.maxAbs, 0);
 }
 
