@@ -23,13 +23,14 @@ using testing::HasSubstr;
 /// The viewer in memory on a small stage of all kinds of light, played by scripts as a person plays it.
 class ViewerTest : public testing::Test {
  protected:
-  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {400, 720}})), scene_(sceneOf(40)) {
-    ViewerOptions options;
+  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {400, 720}})), scene_(sceneOf(40)) { open({}); }
+  void open(ViewerOptions options) {
     options.uiScale = 0.5f;  // all panels on a small picture, which llvmpipe draws quickly
     options.state.settings.maxDepth = 1;
     options.state.settings.threads = 2;
     options.state.passLimit = 2;
     options.saveFolder = folder_.path();
+    viewer_.reset();
     viewer_ = std::make_unique<Viewer>(
         *window_, scene_,
         [](const std::filesystem::path& file) { return std::make_shared<const Scene>(loadScene(file)); }, options);
@@ -167,6 +168,38 @@ TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
   EXPECT_THAT(refusalOf("click \"Max\n"), HasSubstr("a quote has no end"));
   EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
   EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
+}
+
+TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {
+  const std::filesystem::path record = folder_ / "recorded.txt";
+  ViewerOptions recording;
+  recording.record = record;
+  open(recording);
+  play(
+      "wait idle\nset Strategy cell-cut\nset \"Max cut\" 40\nset Exposure 1.37\nset \"Tone map\" off\nset Channel "
+      "luminance\ndrag left 300 200 340 220\nscroll 300 200 2\nkey W\ndrag middle 300 200 280 240\nset Show "
+      "cut-size\nkey G\nsize 420 700\nwait idle\npick 90 300\nmove 300 210\nkey F\ndrag left 300 200 310 "
+      "190\nclick Statistics\nset \"Stop at spp\" 3\nkey P\n");
+  const ViewerState first = viewer_->state();
+  open({});
+  EXPECT_FALSE(first.settings.view && viewer_->state().settings.view);
+  ScriptPlayer(record, readScript(record), folder_.path()).play(*viewer_, *window_);
+  const ViewerState& second = viewer_->state();
+  EXPECT_EQ(first.settings.strategy, second.settings.strategy);
+  EXPECT_EQ(first.settings.sampler, second.settings.sampler);
+  EXPECT_EQ(first.settings.width, second.settings.width);
+  EXPECT_EQ(first.display.exposure, second.display.exposure);
+  EXPECT_EQ(first.display.toneMap, second.display.toneMap);
+  EXPECT_EQ(first.display.channel, second.display.channel);
+  EXPECT_EQ(first.overlay, second.overlay);
+  EXPECT_EQ(first.pick, second.pick);
+  EXPECT_EQ(first.passLimit, second.passLimit);
+  EXPECT_EQ(first.paused, second.paused);
+  ASSERT_TRUE(first.settings.view && second.settings.view);
+  // Sums of drags are rounded in another order.
+  EXPECT_LT(glm::length(first.settings.view->position - second.settings.view->position), 1e-4f);
+  EXPECT_LT(glm::length(first.settings.view->back - second.settings.view->back), 1e-4f);
+  EXPECT_EQ(viewer_->widgets().find("Samples"), nullptr) << "the section was closed";
 }
 
 TEST_F(ViewerTest, RandomEditsEndWithTheirOwnPicture) {

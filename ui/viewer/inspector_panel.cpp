@@ -67,7 +67,7 @@ void drawTable(const std::vector<ClusterRow>& rows, ViewerState& state) {
 
 ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
   state.hoveredCluster.reset();
-  if (!state.pick || !ImGui::CollapsingHeader("Inspector", ImGuiTreeNodeFlags_DefaultOpen)) return ViewerCommand::kNone;
+  if (!state.pick || !widgets.section("Inspector")) return ViewerCommand::kNone;
   ViewerCommand command = ViewerCommand::kNone;
   if (!facts.overlay || !facts.overlay->inspection) {
     ImGui::TextUnformatted("looking …");

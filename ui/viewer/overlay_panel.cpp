@@ -4,7 +4,7 @@
 namespace cellcut {
 
 void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
-  if (!section("Overlay")) return;
+  if (!widgets.section("Overlay")) return;
   OverlayChoice& o = state.overlay;
   static constexpr auto kNames = namesOf(kOverlays);
   chooseEnum(widgets, "Show", o.overlay, kNames, describe(o.overlay).description.data());

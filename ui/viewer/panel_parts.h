@@ -1,5 +1,5 @@
 /// \file panel_parts.h
-/// What the panels share: numbers as text, sections, choices of enumerators. Between Gui::beginFrame and endFrame.
+/// What the panels share: numbers as text, choices of enumerators. Between Gui::beginFrame and endFrame.
 #pragma once
 
 #include "ui/viewer/widgets.h"
@@ -27,10 +27,6 @@ constexpr auto namesOf(const Entries& entries) {
   std::array<std::string_view, std::tuple_size_v<std::remove_cvref_t<Entries>>> names{};
   std::transform(entries.begin(), entries.end(), names.begin(), [](const auto& entry) { return entry.name; });
   return names;
-}
-
-inline bool section(const char* title) {
-  return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
 }
 
 template <class Enum>

@@ -75,7 +75,7 @@ std::optional<std::size_t> qualityOf(const SamplerSettings& s) {
 
 ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
   ViewerCommand command = ViewerCommand::kNone;
-  if (!section("Render")) return command;
+  if (!widgets.section("Render")) return command;
   RenderSettings& s = state.settings;
   static constexpr auto kNames = namesOf(kStrategies);
   const std::string_view about = kStrategies[static_cast<std::size_t>(s.strategy)].description;

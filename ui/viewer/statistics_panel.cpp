@@ -4,7 +4,7 @@
 namespace cellcut {
 
 void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts) {
-  if (!section("Statistics")) return;
+  if (!widgets.section("Statistics")) return;
   const Snapshot& s = facts.snapshot;
   widgets.text("Samples", formatted("%llu spp in %.1f s", static_cast<unsigned long long>(s.passes), s.seconds));
   const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);

@@ -5,7 +5,7 @@ namespace cellcut {
 
 ViewerCommand drawViewPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
   ViewerCommand command = ViewerCommand::kNone;
-  if (!section("View")) return command;
+  if (!widgets.section("View")) return command;
   const auto button = [&](const char* label, ViewerCommand what, const char* tooltip) {
     if (widgets.button(label, tooltip)) command = what;
   };

@@ -1,7 +1,6 @@
 #include "ui/viewer/viewer.h"
 
 #include "renderer/base/error.h"
-#include "renderer/scene/camera.h"
 
 #include <chrono>
 #include <ctime>
@@ -14,17 +13,6 @@ namespace {
 
 /// Panels' width in letters.
 constexpr float kPanelLetters = 25;
-/// Pixels that a pointer may move between press and release of a click.
-constexpr float kClickSlack = 3;
-/// Radians per framebuffer height that a drag turns the camera.
-constexpr float kTurnPerHeight = 3;
-/// Shares of the focus distance that flying covers in a second.
-constexpr float kFlySpeed = 0.7f;
-
-Vec2 mousePosition() {
-  return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
-}
-
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
   const bool sameCamera =
       a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || sameView(*a.view, *b.view));
@@ -61,6 +49,7 @@ Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader l
       pose_(poseOf(viewOf(*scene_, state_.settings), scene_->bounds)),
       gui_(window, {.scale = options_.uiScale * window.contentScale()}),
       session_([&window] { window.wake(); }) {
+  if (options_.record) recorder_ = std::make_unique<ScriptRecorder>(*options_.record);
   snapshot_ = session_.snapshot();
 }
 
@@ -106,7 +95,10 @@ void Viewer::takeScene() {
 }
 
 void Viewer::takeNews() {
-  for (const std::filesystem::path& file : window_.takeDroppedFiles()) open(file);
+  for (const std::filesystem::path& file : window_.takeDroppedFiles()) {
+    open(file);
+    if (recorder_) recorder_->pictureChangesAfter({"drop", std::filesystem::absolute(file).string()});
+  }
   takeScene();
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
@@ -126,20 +118,26 @@ void Viewer::frame(double seconds) {
   const std::vector<InputEvent> events = window_.takeEvents();
   if (size.empty()) return;
   if (!framebuffer_ || framebuffer_->size() != size) framebuffer_ = std::make_unique<GlFramebuffer>(size);
+  if (recorder_ && size != recordedSize_) {
+    recorder_->pictureChangesAfter({"size", std::to_string(size.width), std::to_string(size.height)});
+    recordedSize_ = size;
+  }
   takeNews();
 
   gui_.beginFrame(size, seconds, events);
-  shown_ = Widgets();
+  shown_ = Widgets(std::exchange(reveal_, ""));
   const float panel =
       state_.showUi ? std::min(kPanelLetters * ImGui::GetFontSize(), 0.45f * static_cast<float>(size.width)) : 0;
   area_ = {{panel, 0}, {static_cast<float>(size.width) - panel, static_cast<float>(size.height)}};
   if (state_.showUi) drawPanels();
   if (state_.showHelp) drawHelp(state_.showHelp);
+  recordKeys();
   run(readKeys(seconds));
   followSize();
   const PixelSize rendered{snapshot_->width, snapshot_->height};
   if (!rendered.empty()) placement_ = fitImage(rendered, area_);
   readMouse();
+  recordFrame();
   applyEdits();
   requestOverlay();
   showOverlay();
@@ -198,9 +196,12 @@ void Viewer::run(ViewerCommand command) {
       pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
       return;
     case ViewerCommand::kCopyCamera:
-      return window_.setClipboard(cameraToJson(viewOf(*scene_, state_.settings)));
+      return window_.setClipboard(poseToJson(pose()));
     case ViewerCommand::kPasteCamera:
-      return guarded([this] { setPose(poseOf(cameraFromJson(window_.clipboard()), scene_->bounds)); });
+      return guarded([this] {
+        setPose(poseFromJson(window_.clipboard(), scene_->bounds));
+        if (recorder_) recorder_->view(pose());
+      });
     case ViewerCommand::kSingleStep:
       return session_.singleStep();
     case ViewerCommand::kDismiss:
@@ -218,103 +219,6 @@ void Viewer::storePicture() {
   view_.setImage(ImageSlot::kB, *snapshot_->radiance);
   if (!stored_) state_.display.split = 0.5f;
   stored_ = true;
-}
-
-ViewerCommand Viewer::readKeys(double seconds) {
-  flip_ = false;
-  flying_ = false;
-  if (gui_.keyPressed(Key::kF1)) state_.showHelp = !state_.showHelp;
-  if (gui_.keyPressed(Key::kF2)) state_.showUi = !state_.showUi;
-  if (gui_.keyPressed(Key::kF5)) return ViewerCommand::kReload;
-  if (gui_.keyPressed(Key::kF12)) return ViewerCommand::kSave;
-  if (gui_.wantsKeyboard()) return ViewerCommand::kNone;
-  if (gui_.controlDown()) {
-    if (gui_.keyPressed(Key::kC)) return ViewerCommand::kCopyCamera;
-    return gui_.keyPressed(Key::kV) ? ViewerCommand::kPasteCamera : ViewerCommand::kNone;
-  }
-  fly(seconds);
-  flip_ = gui_.keyDown(Key::kB);
-  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
-    if (gui_.keyPressed(static_cast<Key>(static_cast<int>(Key::k1) + static_cast<int>(i)))) {
-      state_.settings.strategy = kStrategies[i].strategy;
-    }
-  }
-  if (gui_.keyPressed(Key::kO)) {
-    const auto count = static_cast<int>(kOverlays.size());
-    const int step = gui_.shiftDown() ? count - 1 : 1;
-    state_.overlay.overlay = static_cast<Overlay>((static_cast<int>(state_.overlay.overlay) + step) % count);
-  }
-  if (gui_.keyPressed(Key::kG)) state_.overlay.grid = !state_.overlay.grid;
-  if (gui_.keyPressed(Key::kP)) state_.paused = !state_.paused;
-  if (gui_.keyPressed(Key::kEqual, true) || gui_.keyPressed(Key::kKeypadAdd, true)) state_.display.exposure += 0.25f;
-  if (gui_.keyPressed(Key::kMinus, true) || gui_.keyPressed(Key::kKeypadSubtract, true))
-    state_.display.exposure -= 0.25f;
-  if (gui_.keyPressed(Key::kEscape)) return ViewerCommand::kUnpick;
-  if (gui_.keyPressed(Key::kPeriod)) return ViewerCommand::kSingleStep;
-  if (gui_.keyPressed(Key::kT)) return ViewerCommand::kStore;
-  if (gui_.keyPressed(Key::kF)) focusAt(mousePosition());
-  return gui_.keyPressed(Key::kR) ? ViewerCommand::kResetCamera : ViewerCommand::kNone;
-}
-
-CameraPose Viewer::pose() const {
-  return {viewOf(*scene_, state_.settings), pose_.focus};
-}
-
-void Viewer::setPose(const CameraPose& pose) {
-  pose_ = pose;
-  state_.settings.view = pose.camera;
-}
-
-void Viewer::fly(double seconds) {
-  const auto axis = [&](Key plus, Key minus) {
-    return static_cast<float>(gui_.keyDown(plus)) - static_cast<float>(gui_.keyDown(minus));
-  };
-  const Vec3 along(axis(Key::kD, Key::kA), axis(Key::kE, Key::kQ) + axis(Key::kSpace, Key::kC), axis(Key::kW, Key::kS));
-  if (along == Vec3(0)) return;
-  flying_ = true;
-  const float speed = kFlySpeed * pose_.focus * (gui_.shiftDown() ? 10.0f : 1.0f);
-  // A long frame is no reason to leave the building.
-  setPose(flown(pose(), along * speed * static_cast<float>(std::min(seconds, 0.1))));
-}
-
-void Viewer::readMouse() {
-  const ImGuiIO& io = ImGui::GetIO();
-  const Vec2 position = mousePosition();
-  const bool free = !gui_.wantsMouse() && area_.contains(position);
-  if (free && io.MouseWheel != 0) setPose(dollied(pose(), io.MouseWheel));
-  const Vec2 share = Vec2(io.MouseDelta.x, io.MouseDelta.y) / area_.size.y;
-  for (int button = 0; button < kMouseButtonCount; ++button) {
-    Drag& drag = drags_[button];
-    if (ImGui::IsMouseClicked(button)) drag = {free, false, position};
-    if (!drag.active) continue;
-    if (glm::length(position - drag.start) > kClickSlack) drag.moved = true;
-    if (drag.moved && share != Vec2(0)) {
-      if (button == ImGuiMouseButton_Left) setPose(orbited(pose(), kTurnPerHeight * share));
-      if (button == ImGuiMouseButton_Right) setPose(turned(pose(), kTurnPerHeight * share));
-      if (button == ImGuiMouseButton_Middle) setPose(panned(pose(), share));
-    }
-    if (ImGui::IsMouseDown(button)) continue;
-    if (button == ImGuiMouseButton_Left && !drag.moved) {
-      const std::optional<glm::ivec2> pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
-      if (pixel) state_.pick = pixel;
-    }
-    drag.active = false;
-  }
-}
-
-void Viewer::focusAt(const Vec2& position) {
-  const auto pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
-  if (!pixel) return;
-  // One ray: the session answers within a pass.
-  const auto distance = session_
-                            .inspect([pixel = *pixel](const SessionView& view) {
-                              const Ray ray = cameraRay(viewOf(view.scene, view.settings), Vec2(pixel) + 0.5f,
-                                                        {view.settings.width, view.settings.height});
-                              const auto hit = view.accel.intersect(ray, 0);
-                              return hit ? std::optional(hit->t) : std::nullopt;
-                            })
-                            .get();
-  if (distance) pose_.focus = *distance;
 }
 
 void Viewer::followSize() {
