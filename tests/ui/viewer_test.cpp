@@ -11,6 +11,9 @@
 
 #include <fstream>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +22,15 @@ namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsSupersetOf;
+
+std::vector<std::string> channelsOf(const std::filesystem::path& exr) {
+  const Imf::InputFile file(exr.c_str());
+  std::vector<std::string> names;
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) names.emplace_back(channel.name());
+  return names;
+}
 
 /// The viewer in memory on a small stage of all kinds of light, played by scripts as a person plays it.
 class ViewerTest : public testing::Test {
@@ -105,6 +117,10 @@ TEST_F(ViewerTest, EveryOverlayShowsItsValues) {
     EXPECT_EQ(viewer_->overlay()->overlay, overlay.overlay);
     EXPECT_GT(viewer_->overlay()->statistics.count, 0u) << overlay.name;
   }
+  // All cells that are seen were touched: one value, and still a range from 0 to 1.
+  play("set Show touched\nwait idle\n");
+  const ColorScale scale(viewer_->overlay()->values, scaleOf(Overlay::kTouched, {}));
+  EXPECT_EQ(scale.range(), (ValueRange{0, 1}));
   ASSERT_TRUE(viewer_->overlay()->touched);
   EXPECT_GT(viewer_->overlay()->touched->inside, 0u);
 }
@@ -151,11 +167,15 @@ TEST_F(ViewerTest, ABadSceneIsRefusedAndTheOldOneGoesOn) {
 }
 
 TEST_F(ViewerTest, SavesTheWindowAndTheRendering) {
-  play("wait idle\nkey F12\n");
+  play("wait idle\nkey F12\nwait idle\n");
   EXPECT_THAT(viewer_->problem(), HasSubstr("saved"));
   std::size_t exr = 0, png = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-    exr += entry.path().extension() == ".exr";
+    if (entry.path().extension() == ".exr") {
+      ++exr;
+      EXPECT_THAT(channelsOf(entry.path()),
+                  IsSupersetOf({"R", "albedo.R", "normal.X", "depth.Z", "variance.R", "cell.id", "cut.size"}));
+    }
     png += entry.path().extension() == ".png";
   }
   EXPECT_EQ(exr, 1u);

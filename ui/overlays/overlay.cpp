@@ -127,6 +127,15 @@ std::optional<Image<float>> computeOverlay(Overlay overlay, const OverlayInputs&
   return values;
 }
 
+ScaleSettings scaleOf(Overlay overlay, const ScaleSettings& settings) {
+  ScaleSettings scale = settings;
+  if (overlay == Overlay::kTouched && !scale.pinned) {
+    scale.pinned = ValueRange{0, 1};
+    scale.kind = ScaleKind::kLinear;  // a logarithm has no 0
+  }
+  return scale;
+}
+
 OverlayStatistics statisticsOf(const Image<float>& values) {
   OverlayStatistics s;
   double sum = 0;

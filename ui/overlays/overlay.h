@@ -7,6 +7,7 @@
 #pragma once
 
 #include "renderer/sampling/inspection.h"
+#include "ui/overlays/color_scale.h"
 #include "ui/overlays/first_hits.h"
 
 #include <array>
@@ -83,6 +84,9 @@ struct OverlayInputs {
 /// \return nothing if `cancel` became true first
 std::optional<Image<float>> computeOverlay(Overlay overlay, const OverlayInputs& inputs, glm::ivec2 size,
                                            const std::atomic<bool>& cancel);
+
+/// The settings with the overlay's own automatic range: "touched" is 0 to 1 even where every cell, or none, is.
+ScaleSettings scaleOf(Overlay overlay, const ScaleSettings& settings);
 
 /// Of the finite values of a picture.
 struct OverlayStatistics {

@@ -24,7 +24,7 @@ void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& s
   bool pinned = o.scale.pinned.has_value();
   if (widgets.checkbox("Pin range", pinned, "Keep the range that there is now") && facts.overlay) {
     o.scale.pinned.reset();
-    if (pinned) o.scale.pinned = ColorScale(facts.overlay->values, o.scale).range();
+    if (pinned) o.scale.pinned = ColorScale(facts.overlay->values, scaleOf(o.overlay, o.scale)).range();
   }
   if (facts.overlay && facts.overlay->overlay == o.overlay && facts.overlay->statistics.count > 0) {
     const OverlayStatistics& s = facts.overlay->statistics;

@@ -103,6 +103,16 @@ void OverlaySource::request(RenderSession& session, const OverlayChoice& choice,
   });
 }
 
+std::future<LayeredImage> OverlaySource::layers(RenderSession& session) const {
+  return session.inspect([cache = cache_](const SessionView& view) {
+    const Image<FirstHit>* hits = cache->of(view);
+    std::optional<LayeredImage> layers;
+    if (hits) layers = layersOf(view.film, view.sampler, *hits, cache->stop);
+    if (!layers) throw std::runtime_error("stopped");
+    return std::move(*layers);
+  });
+}
+
 std::optional<OverlayPicture> OverlaySource::take() {
   if (!busy() || pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
   return pending_.get();

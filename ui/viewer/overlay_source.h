@@ -4,6 +4,7 @@
 
 #include "renderer/trace/session.h"
 #include "ui/overlays/cell_inspector.h"
+#include "ui/overlays/layers.h"
 #include "ui/overlays/wireframe.h"
 #include "ui/viewer/viewer_state.h"
 
@@ -36,6 +37,8 @@ class OverlaySource {
   /// \param reference  may be null
   void request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
                std::shared_ptr<const ImageRgb> reference);
+  /// The rendering as layersOf(). The future is broken when there is no picture.
+  std::future<LayeredImage> layers(RenderSession& session) const;
   /// What came in since the last call.
   std::optional<OverlayPicture> take();
   bool busy() const { return pending_.valid(); }

@@ -29,6 +29,11 @@ bool sameOverlay(const ViewerState& a, const ViewerState& b) {
   return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid && a.pick == b.pick;
 }
 
+template <class T>
+bool isReady(const std::future<T>& future) {
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 std::string timeStamp() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -57,11 +62,11 @@ Viewer::~Viewer() = default;
 
 double Viewer::sleepSeconds() const {
   if (flying_ || gui_.inputPending()) return 0;
-  return loading_.valid() || overlays_.busy() ? 0.02 : 0.25;
+  return loading_.valid() || saving_.valid() || overlays_.busy() ? 0.02 : 0.25;
 }
 
 bool Viewer::settled() const {
-  return !edited_ && !loading_.valid() && !overlays_.busy() && !gui_.inputPending() &&
+  return !edited_ && !loading_.valid() && !saving_.valid() && !overlays_.busy() && !gui_.inputPending() &&
          session_.snapshot()->generation >= generation_ && (!overlayWanted() || overlayIsCurrent());
 }
 
@@ -80,7 +85,7 @@ void Viewer::open(const std::filesystem::path& file) {
 }
 
 void Viewer::takeScene() {
-  if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!isReady(loading_)) return;
   guarded([this] {
     scene_ = loading_.get();
     options_.file = loadingFile_;
@@ -100,6 +105,7 @@ void Viewer::takeNews() {
     if (recorder_) recorder_->pictureChangesAfter({"drop", std::filesystem::absolute(file).string()});
   }
   takeScene();
+  if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
     snapshot_ = newest;
@@ -293,7 +299,8 @@ void Viewer::showOverlay() {
   overlayDrawn_ = true;
   ImageRgba8 shown;
   if (!overlay_->values.empty()) {
-    shown = colorize(overlay_->values, ColorScale(overlay_->values, state_.overlay.scale), state_.overlay.opacity);
+    shown = colorize(overlay_->values, ColorScale(overlay_->values, scaleOf(overlay_->overlay, state_.overlay.scale)),
+                     state_.overlay.opacity);
   }
   if (shown.empty()) {
     shown = overlay_->lines;
@@ -356,14 +363,17 @@ void Viewer::drawHoveredCluster() {
 }
 
 void Viewer::save() {
+  if (saving_.valid()) return;  // one at a time
   const std::filesystem::path stem = options_.saveFolder / ("cellcut-" + timeStamp());
   const std::vector<std::byte> png = encodePng(framebuffer_->read());
   writeFileAtomically(stem.string() + ".png", png);
-  // The layers are the session's to make: asked for here, once.
-  LayeredImage layers = session_.inspect([](const SessionView& view) { return view.film.layers(); }).get();
-  layers.metadata["software"] = "cellcut";
-  writeExr(stem.string() + ".exr", layers);
-  problem_ = "saved " + stem.string() + ".png and .exr";
+  // The layers are the session's to make; compressing them takes as long as a pass.
+  saving_ = std::async(std::launch::async, [stem = stem.string(), made = overlays_.layers(session_)]() mutable {
+    LayeredImage layers = made.get();
+    layers.metadata["software"] = "cellcut";
+    writeExr(stem + ".exr", layers);
+    return "saved " + stem + ".png and .exr";
+  });
 }
 
 }  // namespace cellcut

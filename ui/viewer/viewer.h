@@ -133,6 +133,7 @@ class Viewer {
   std::string problem_;
   std::future<std::shared_ptr<const Scene>> loading_;
   std::filesystem::path loadingFile_;
+  std::future<std::string> saving_;  ///< what to say then
   OverlaySource overlays_;
   RenderSession session_;  ///< last: its threads stop before anything that they call goes
 };
