@@ -142,6 +142,69 @@ TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
   EXPECT_FALSE(viewer_->state().pick);
 }
 
+double meanOf(const ImageRgb& image) {
+  glm::dvec3 sum(0.0);
+  for (const Vec3& c : image) sum += glm::dvec3(c);
+  return (sum.x + sum.y + sum.z) / (3 * static_cast<double>(image.size()));
+}
+
+TEST_F(ViewerTest, AClusterIsShownAloneAndLeftOut) {
+  const auto mean = [this] { return meanOf(*viewer_->session().snapshot()->radiance); };
+  play("wait idle\n");
+  const double all = mean();
+  play("pick 90 350\nwait idle\nclick \"Cluster 1\"\nexpect \"Cluster 1\" on\nclick Solo\nwait idle\n");
+  const double solo = mean();
+  play("key N\nkey M\nwait idle\n");
+  const double mute = mean();
+  // What is seen of the lights themselves is there with each of them.
+  play("click Close\nclick \"All lights\"\nset \"Max depth\" 0\nwait idle\n");
+  const double seen = mean();
+  EXPECT_NEAR(solo + mute - seen, all, 1e-5 * all);
+  EXPECT_GT(solo, seen);
+  EXPECT_LT(mute, all);
+  EXPECT_THAT(refusalOf("click \"All lights\"\n"), HasSubstr("nothing is labelled"));
+}
+
+TEST_F(ViewerTest, ABoxUnderThePointerSelectsItsRow) {
+  Scene lamps;
+  addQuad(lamps, addMaterial(lamps, lambertian(Vec3(0.5f))), {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  for (int i = 0; i < 3; ++i) lamps.pointLights.push_back({{static_cast<float>(i - 1), 1, 0}, Vec3(1)});
+  lamps.cameras.push_back(perspective({0, 2, 6}, {0, 0.5f, 0}, 1));
+  finish(lamps);
+  scene_ = std::make_shared<const Scene>(std::move(lamps));
+  open({});
+  play("wait idle\npick 100 450\nwait idle\n");
+  ASSERT_TRUE(viewer_->overlay()->inspection);
+  const std::vector<ClusterRow> rows = viewer_->overlay()->inspection->clusters;
+  ASSERT_EQ(rows.size(), 3u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto film = projectToFilm(scene_->cameras[0], rows[i].cluster.box.centre(),
+                                    {viewer_->state().settings.width, viewer_->state().settings.height});
+    ASSERT_TRUE(film);
+    const Vec2 at = viewer_->placement().toFramebuffer(*film);
+    if (!viewer_->imageArea().contains(at)) continue;
+    play("move " + std::to_string(at.x) + " " + std::to_string(at.y) + "\nkey X\n");
+    EXPECT_EQ(viewer_->state().hoveredCluster, i);
+    EXPECT_EQ(viewer_->state().selectedCluster, i);
+  }
+  EXPECT_TRUE(viewer_->state().selectedCluster);
+}
+
+TEST_F(ViewerTest, ASliceShowsCellsInMidAir) {
+  play("set Show cut-size\nwait idle\n");
+  const std::size_t onSurfaces = viewer_->overlay()->statistics.count;
+  play("set Slice \"across z\"\nset \"Slice at\" 0.4\nwait idle\n");
+  ASSERT_TRUE(viewer_->overlay()->slice);
+  const float before = *viewer_->overlay()->slice;
+  EXPECT_GT(viewer_->overlay()->statistics.count, 0u);
+  EXPECT_NE(viewer_->overlay()->statistics.count, onSurfaces);
+  play("key RightBracket\nkey RightBracket\nkey RightBracket\nwait idle\n");
+  EXPECT_GT(*viewer_->overlay()->slice, before);
+  play("key K\nwait idle\n");
+  EXPECT_FALSE(viewer_->overlay()->slice);
+  EXPECT_EQ(viewer_->overlay()->statistics.count, onSurfaces);
+}
+
 TEST_F(ViewerTest, PanelsAndSheetAreToggled) {
   play("expect Strategy cell-cut\nkey F2\n");
   EXPECT_THAT(refusalOf("expect Strategy cell-cut\n"), HasSubstr("nothing is labelled"));

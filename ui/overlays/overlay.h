@@ -67,10 +67,11 @@ std::optional<Overlay> overlayFromName(std::string_view name);
 struct OverlayInputs {
   const Image<FirstHit>* firstHits = nullptr;
   const LightSampler* sampler = nullptr;
-  const ImageRgb* mean = nullptr;                    ///< Film::mean()
-  const ImageRgb* standardError = nullptr;           ///< Film::standardError()
-  std::uint64_t passes = 0;                          ///< Film::passes()
-  const ImageRgb* reference = nullptr;               ///< of the picture's size; another size has no error to show
+  bool everyCell = false;                   ///< cells that no path touched have the cut that one would find there
+  const ImageRgb* mean = nullptr;           ///< Film::mean()
+  const ImageRgb* standardError = nullptr;  ///< Film::standardError()
+  std::uint64_t passes = 0;                 ///< Film::passes()
+  const ImageRgb* reference = nullptr;      ///< of the picture's size; another size has no error to show
   const Image<std::uint16_t>* badSamples = nullptr;  ///< Film::badSampleCounts(); null or empty: none was bad
 };
 

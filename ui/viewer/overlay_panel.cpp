@@ -15,6 +15,18 @@ void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& s
                  formatted("%zu of %zu (%.1f %%), %zu beyond", t.inside, t.all, 100 * t.share(), t.outside),
                  "By any path vertex; of the cells that cover what the pilot paths saw");
   }
+  if (state.settings.strategy == Strategy::kCellCut) {
+    static constexpr std::array<std::string_view, 4> kAxes{"no slice", "across x", "across y", "across z"};
+    chooseEnum(widgets, "Slice", o.slice.axis, kAxes,
+               "A plane through the grid that shows cells in mid-air too (K); it is hidden by what stands before it");
+    if (o.slice.axis != SliceAxis::kNone) {
+      widgets.slider("Slice at", o.slice.position, 0, 1, "From one side of the grid to the other ([ and ])");
+      if (facts.overlay && facts.overlay->slice) {
+        widgets.text("Slice lies at", formatted("%c = %.3g m", "xyz"[static_cast<int>(o.slice.axis) - 1],
+                                                static_cast<double>(*facts.overlay->slice)));
+      }
+    }
+  }
   if (o.overlay == Overlay::kNone) return;
   static constexpr auto kMaps = namesOf(kColormaps);
   chooseEnum(widgets, "Colours", o.scale.colormap, kMaps, "Viridis and magma have even steps");

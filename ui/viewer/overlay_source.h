@@ -21,8 +21,10 @@ struct OverlayPicture {
   Image<float> values;  ///< empty without an overlay
   OverlayStatistics statistics;
   std::optional<TouchedCells> touched;
-  ImageRgba8 lines;  ///< wireframe, transparent elsewhere; empty without lines
+  ImageRgba8 lines;            ///< wireframe, transparent elsewhere; empty without lines
+  std::optional<float> slice;  ///< where the plane lies on its axis, metres
   std::optional<PixelReport> inspection;
+  std::size_t lightCount = 0;  ///< of the scene
 };
 
 /// At most one request is on its way. Threads: one (the UI's).

@@ -1,3 +1,4 @@
+#include "renderer/trace/light_mask.h"
 #include "ui/viewer/panel_parts.h"
 #include "ui/viewer/panels.h"
 
@@ -82,6 +83,12 @@ ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, Viewer
   chooseEnum(widgets, "Strategy", s.strategy, kNames, about.data());
   if (hasCuts(s.strategy)) drawSamplerSettings(widgets, state);
   widgets.slider("Max depth", s.maxDepth, 0, 32, "Times a path may scatter: 0 emitters only, 1 direct light only");
+  if (s.shownLights) {
+    const std::vector<bool>& shown = s.shownLights->shown();
+    widgets.text("Lights", formatted("%zd of %zu", std::count(shown.begin(), shown.end(), true), shown.size()),
+                 "Solo and mute of the inspector; what is seen of the others directly stays");
+    if (widgets.button("All lights", "Show every light again (N)")) command = ViewerCommand::kAllLights;
+  }
   int seed = static_cast<int>(s.seed);
   if (widgets.slider("Seed", seed, 0, 99, "Another seed, another noise")) s.seed = static_cast<std::uint64_t>(seed);
   limitField(widgets, "Stop at spp", state.passLimit, "Samples per pixel after which rendering rests");

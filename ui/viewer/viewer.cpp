@@ -1,6 +1,7 @@
 #include "ui/viewer/viewer.h"
 
 #include "renderer/base/error.h"
+#include "renderer/trace/light_mask.h"
 
 #include <chrono>
 #include <ctime>
@@ -17,7 +18,7 @@ bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
   const bool sameCamera =
       a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || sameView(*a.view, *b.view));
   return sameCamera && a.width == b.width && a.height == b.height && a.maxDepth == b.maxDepth &&
-         a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler;
+         a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler && a.shownLights == b.shownLights;
 }
 
 bool sameInput(const SessionInput& a, const SessionInput& b) {
@@ -26,7 +27,8 @@ bool sameInput(const SessionInput& a, const SessionInput& b) {
 }
 
 bool sameOverlay(const ViewerState& a, const ViewerState& b) {
-  return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid && a.pick == b.pick;
+  return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid &&
+         a.overlay.slice == b.overlay.slice && a.pick == b.pick;
 }
 
 template <class T>
@@ -61,7 +63,7 @@ Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader l
 Viewer::~Viewer() = default;
 
 double Viewer::sleepSeconds() const {
-  if (flying_ || gui_.inputPending()) return 0;
+  if (flying_ || pointing_ || gui_.inputPending()) return 0;
   return loading_.valid() || saving_.valid() || overlays_.busy() ? 0.02 : 0.25;
 }
 
@@ -92,6 +94,7 @@ void Viewer::takeScene() {
     problem_.clear();
     state_.settings.camera = std::min(state_.settings.camera, scene_->cameras.size() - 1);
     state_.settings.view.reset();
+    state_.settings.shownLights.reset();
     state_.pick.reset();
     pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
     window_.setTitle("cellcut: " + options_.file.filename().string());
@@ -144,6 +147,7 @@ void Viewer::frame(double seconds) {
   if (!rendered.empty()) placement_ = fitImage(rendered, area_);
   readMouse();
   recordFrame();
+  pointAtCluster();
   applyEdits();
   requestOverlay();
   showOverlay();
@@ -214,10 +218,29 @@ void Viewer::run(ViewerCommand command) {
       return problem_.clear();
     case ViewerCommand::kUnpick:
       return state_.pick.reset();
+    case ViewerCommand::kSolo:
+    case ViewerCommand::kMute:
+      return showLights(command == ViewerCommand::kSolo);
+    case ViewerCommand::kAllLights:
+      return state_.settings.shownLights.reset();
     case ViewerCommand::kExportCut:
       if (overlay_ && overlay_->inspection) window_.setClipboard(toJson(*overlay_->inspection).dump(2));
       return;
   }
+}
+
+void Viewer::showLights(bool solo) {
+  const std::optional<std::size_t> row = state_.selectedCluster ? state_.selectedCluster : state_.hoveredCluster;
+  if (!row || !overlay_ || !overlay_->inspection || *row >= overlay_->inspection->clusters.size()) return;
+  std::span<const LightId> lights = overlay_->inspection->clusters[*row].lights;
+  if (row == state_.selectedCluster && state_.selectedLight > 0) {
+    lights = lights.subspan(static_cast<std::size_t>(state_.selectedLight) - 1, 1);
+  }
+  std::vector<bool> shown(overlay_->lightCount, !solo);
+  // Muting goes on from what is shown; solo begins anew.
+  if (!solo && state_.settings.shownLights) shown = state_.settings.shownLights->shown();
+  for (const LightId light : lights) shown[static_cast<std::size_t>(light)] = solo;
+  state_.settings.shownLights = std::make_shared<const LightMask>(std::move(shown));
 }
 
 void Viewer::storePicture() {
@@ -257,7 +280,8 @@ void Viewer::applyEdits() {
 }
 
 bool Viewer::overlayWanted() const {
-  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick;
+  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick ||
+         state_.overlay.slice.axis != SliceAxis::kNone;
 }
 
 bool Viewer::overlayIsCurrent() const {
@@ -284,82 +308,6 @@ void Viewer::refreshOverlay() {
   overlayPasses_ = session_.snapshot()->passes;
   overlays_.request(session_, state_.overlay, state_.pick, options_.reference);
   overlays_.wait();
-}
-
-void Viewer::showOverlay() {
-  const bool sameColours =
-      overlayState_.overlay.opacity == state_.overlay.opacity && overlayState_.overlay.scale == state_.overlay.scale;
-  if (!overlay_) {
-    view_.clearOverlay();
-    return;
-  }
-  if (overlayDrawn_ && sameColours) return;
-  overlayState_.overlay.opacity = state_.overlay.opacity;
-  overlayState_.overlay.scale = state_.overlay.scale;
-  overlayDrawn_ = true;
-  ImageRgba8 shown;
-  if (!overlay_->values.empty()) {
-    shown = colorize(overlay_->values, ColorScale(overlay_->values, scaleOf(overlay_->overlay, state_.overlay.scale)),
-                     state_.overlay.opacity);
-  }
-  if (shown.empty()) {
-    shown = overlay_->lines;
-  } else if (!overlay_->lines.empty()) {
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-      if (overlay_->lines[i].w > 0) shown[i] = overlay_->lines[i];
-    }
-  }
-  if (shown.empty()) {
-    view_.clearOverlay();
-  } else {
-    view_.setOverlay(shown);
-  }
-}
-
-void Viewer::drawOverPicture() {
-  ImDrawList* list = ImGui::GetBackgroundDrawList();
-  if (overlay_ && overlay_->overlay != Overlay::kNone && !overlay_->values.empty()) {
-    drawLegend(*overlay_, state_.overlay, area_, gui_.scale());
-  }
-  drawHoveredCluster();
-  if (state_.pick) {
-    const Vec2 at = placement_.toFramebuffer(Vec2(*state_.pick) + 0.5f);
-    const float r = 6 * gui_.scale();
-    list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_BLACK, 0, 3);
-    list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_WHITE, 0, 1.5f);
-  }
-  if (stored_ && !flip_) {
-    const float x =
-        placement_.origin.x + placement_.scale * static_cast<float>(snapshot_->width) * state_.display.split;
-    const float height = placement_.scale * static_cast<float>(snapshot_->height);
-    list->AddLine(ImVec2(x, placement_.origin.y), ImVec2(x, placement_.origin.y + height),
-                  IM_COL32(255, 255, 255, 160));
-  }
-}
-
-void Viewer::drawHoveredCluster() {
-  if (!state_.hoveredCluster || !overlay_ || !overlay_->inspection) return;
-  const std::vector<ClusterRow>& rows = overlay_->inspection->clusters;
-  if (*state_.hoveredCluster >= rows.size()) return;
-  const Bounds& box = rows[*state_.hoveredCluster].cluster.box;
-  if (box.empty()) return;
-  const Camera& camera = viewOf(*scene_, state_.settings);
-  const glm::ivec2 size(snapshot_->width, snapshot_->height);
-  const auto project = [&](unsigned corner) -> std::optional<ImVec2> {
-    const Vec3 p((corner & 1 ? box.upper : box.lower).x, (corner & 2 ? box.upper : box.lower).y,
-                 (corner & 4 ? box.upper : box.lower).z);
-    const std::optional<Vec2> film = projectToFilm(camera, p, size);
-    if (!film) return std::nullopt;
-    const Vec2 at = placement_.toFramebuffer(*film);
-    return ImVec2(at.x, at.y);
-  };
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    for (const unsigned axis : {1u, 2u, 4u}) {
-      if (corner & axis) continue;
-      const std::optional<ImVec2> a = project(corner), b = project(corner | axis);
-      if (a && b) ImGui::GetBackgroundDrawList()->AddLine(*a, *b, IM_COL32(255, 255, 255, 230), 2 * gui_.scale());
-    }
-  }
 }
 
 void Viewer::save() {

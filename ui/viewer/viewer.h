@@ -96,7 +96,10 @@ class Viewer {
   void requestOverlay();
   void showOverlay();
   void drawOverPicture();
-  void drawHoveredCluster();
+  std::optional<Vec2> whereSeen(const Vec3& p) const;
+  void drawCluster(std::size_t row, unsigned color) const;
+  void pointAtCluster();
+  void showLights(bool solo);
   void save();
   void guarded(const std::function<void()>& action);
 
@@ -130,6 +133,8 @@ class Viewer {
   ViewerState overlayState_;         ///< what the newest request asked for
   std::uint64_t overlayPasses_ = 0;  ///< of the snapshot at that request
   bool overlayDrawn_ = false;
+  std::optional<std::size_t> pointedBefore_;
+  bool pointing_ = false;  ///< at another cluster than a frame ago: its row is drawn in the next one
   std::string problem_;
   std::future<std::shared_ptr<const Scene>> loading_;
   std::filesystem::path loadingFile_;

@@ -20,6 +20,9 @@ Vec2 mousePosition() {
   return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
 }
 
+/// Share of the grid that [ and ] move the slice by: less than a layer of the default 16 cells.
+constexpr float kSliceStep = 0.05f;
+
 /// In the order of MouseButton and of ImGui.
 constexpr std::array<const char*, kMouseButtonCount> kButtons{"left", "right", "middle"};
 /// Space flies too.
@@ -59,6 +62,20 @@ ViewerCommand Viewer::readKeys(double seconds) {
     state_.overlay.overlay = static_cast<Overlay>((static_cast<int>(state_.overlay.overlay) + step) % count);
   }
   if (gui_.keyPressed(Key::kG)) state_.overlay.grid = !state_.overlay.grid;
+  if (gui_.keyPressed(Key::kK)) {
+    state_.overlay.slice.axis = static_cast<SliceAxis>((static_cast<int>(state_.overlay.slice.axis) + 1) % 4);
+  }
+  const float step = static_cast<float>(gui_.keyPressed(Key::kRightBracket, true)) -
+                     static_cast<float>(gui_.keyPressed(Key::kLeftBracket, true));
+  if (step != 0)
+    state_.overlay.slice.position = std::clamp(state_.overlay.slice.position + kSliceStep * step, 0.0f, 1.0f);
+  if (gui_.keyPressed(Key::kX) && state_.hoveredCluster) {
+    state_.selectedCluster = state_.hoveredCluster;
+    state_.selectedLight = 0;
+  }
+  if (gui_.keyPressed(Key::kL)) return ViewerCommand::kSolo;
+  if (gui_.keyPressed(Key::kM)) return ViewerCommand::kMute;
+  if (gui_.keyPressed(Key::kN)) return ViewerCommand::kAllLights;
   if (gui_.keyPressed(Key::kP)) state_.paused = !state_.paused;
   if (gui_.keyPressed(Key::kEqual, true) || gui_.keyPressed(Key::kKeypadAdd, true)) state_.display.exposure += 0.25f;
   if (gui_.keyPressed(Key::kMinus, true) || gui_.keyPressed(Key::kKeypadSubtract, true))
@@ -103,7 +120,7 @@ void Viewer::recordKeys() {
     const bool control = gui_.controlDown();
     if (!control && kFlightKeys.find(keyName(key)) != std::string_view::npos && keyName(key).size() == 1) continue;
     if (key == Key::kSpace || (control && key == Key::kV)) continue;  // view() says what came of them
-    if (key == Key::kF && !control) {
+    if ((key == Key::kF || key == Key::kX) && !control) {             // mean what is under the pointer
       recorder_->beforePosition(!state_.paused);
       record({"move", exactNumber(mousePosition().x), exactNumber(mousePosition().y)});
     }
@@ -149,6 +166,7 @@ void Viewer::readMouse() {
     } else if (button == ImGuiMouseButton_Left) {
       const std::optional<glm::ivec2> pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
       if (pixel) {
+        if (state_.pick != pixel) state_.selectedCluster.reset();
         state_.pick = pixel;
         if (recorder_) recorder_->beforePosition(!state_.paused);
         record({"pick", std::to_string(pixel->x), std::to_string(pixel->y)});

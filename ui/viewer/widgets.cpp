@@ -141,9 +141,17 @@ bool Widgets::choice(const char* label, int& index, std::span<const std::string_
   return edited;
 }
 
+bool Widgets::row(const char* label, const char* shown, bool selected) {
+  const std::string id = std::string(shown) + "###" + label;
+  const bool clicked = ImGui::Selectable(id.c_str(), selected, ImGuiSelectableFlags_SpanAllColumns);
+  remember(WidgetItem::Kind::kButton, label, selected ? "on" : "off");
+  if (clicked) changed(label, std::nullopt);
+  return clicked;
+}
+
 void Widgets::text(const char* label, const std::string& value, const char* tooltip) {
   nameOfField(label);
-  ImGui::TextUnformatted(value.c_str());
+  ImGui::TextWrapped("%s", value.c_str());
   remember(WidgetItem::Kind::kText, label, value);
   explain(tooltip);
 }

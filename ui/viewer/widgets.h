@@ -51,6 +51,8 @@ class Widgets {
   bool number(const char* label, double& value, const char* tooltip);
   /// \return whether another index was chosen
   bool choice(const char* label, int& index, std::span<const std::string_view> names, const char* tooltip);
+  /// A row of a table over all of its columns, begun in its first. \return whether it was clicked
+  bool row(const char* label, const char* shown, bool selected);
   /// "label  value" on a line.
   void text(const char* label, const std::string& value, const char* tooltip = nullptr);
 
