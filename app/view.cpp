@@ -18,6 +18,7 @@ F1 shows the keys. --size is the window's. Without --spp, --time and --noise ren
 
 --headless needs no display; with --script it replays input, one action a line, and stops at its end:
   size W H | click LABEL | set LABEL VALUE | drag left|middle|right X0 Y0 X1 Y1 | scroll X Y DY | key NAME | pick X Y
+  move X Y | view POSITION BACK UP HALF_HEIGHT FOCUS perspective|orthographic (three numbers for each vector)
   drop FILE | wait spp N | wait idle | screenshot FILE | expect LABEL VALUE | quit
 Labels of several words stand in quotes. A label that is not there, or an expectation that fails, ends it with exit
 code 2.
@@ -31,6 +32,7 @@ struct ViewOptions {
   ViewerCommandLine common;
   bool headless = false;
   std::optional<std::filesystem::path> script;
+  std::optional<std::filesystem::path> record;
 };
 
 OpenedWindow windowFor(const ViewOptions& options) {
@@ -84,7 +86,9 @@ int showViewer(const ViewOptions& options, const Console& console) {
     console.err << "cellcut: " << opened.notice << '\n';
   }
   const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
-  Viewer viewer(*opened.window, scene, sceneLoader(options.common), viewerOptions(options.common, *scene));
+  ViewerOptions viewerOptions = cellcut::viewerOptions(options.common, *scene);
+  viewerOptions.record = options.record;
+  Viewer viewer(*opened.window, scene, sceneLoader(options.common), std::move(viewerOptions));
   if (options.script) {
     ScriptPlayer(*options.script, std::move(actions), std::filesystem::current_path()).play(viewer, *opened.window);
   } else {
@@ -103,6 +107,9 @@ Verb addView(CLI::App& program) {
   verb->add_flag("--headless", o.headless, "No display: draw in memory");
   verb->add_option_function<std::string>(
           "--script", [&o](const std::string& text) { o.script = text; }, "Replay input from FILE; see below")
+      ->type_name("FILE");
+  verb->add_option_function<std::string>(
+          "--record", [&o](const std::string& text) { o.record = text; }, "Write down what is done as such a script")
       ->type_name("FILE");
   verb->footer(kExplanations);
   return {verb, [options](const Console& console) { return showViewer(*options, console); }};

@@ -59,11 +59,11 @@ _cellcut_measure() {
 _cellcut_view() {
   case $prev in
     --reference) _cellcut_files 'exr|pfm|hdr' ;;
-    --script) _cellcut_files 'txt' ;;
+    --script | --record) _cellcut_files 'txt' ;;
     --gl) _cellcut_words 'egl osmesa' ;;
     --ui-scale) ;;
     *) _cellcut_picture_value ||
-      _cellcut_scene_or "--ui-scale --reference --gl --headless --script $_cellcut_picture_options" ;;
+      _cellcut_scene_or "--ui-scale --reference --gl --headless --script --record $_cellcut_picture_options" ;;
   esac
 }
 

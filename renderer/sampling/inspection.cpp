@@ -50,6 +50,10 @@ CutSummary CutInspector::summaryOfPoint(const Vec3& p) const {
   return summary(find({p, 0}));
 }
 
+CutSummary CutInspector::summaryOfCell(const CellCoordinates& cell) const {
+  return summary(find(strategy_.grid->region(cell)));
+}
+
 std::vector<ClusterInspection> CutInspector::clusters(const Cut& cut, const ShadingPoint& point) const {
   const std::size_t facing = facingOf(point.n);
   const FarChoice* kept = cut.farCount() > 0 ? cut.farChoice(facing) : nullptr;

@@ -62,6 +62,8 @@ class CutInspector {
   CutSummary summary(const Cut& cut) const;
   /// Of the cut that a point has for itself alone: what `point-cut` asks there.
   CutSummary summaryOfPoint(const Vec3& p) const;
+  /// Of the cut that a path would find for a cell. \pre there is a grid
+  CutSummary summaryOfCell(const CellCoordinates& cell) const;
 
   CutInspection inspect(const ShadingPoint& point) const;
   /// The lights of a cluster, in the order of its leaves.

@@ -1,5 +1,6 @@
 #include "renderer/trace/integrator.h"
 
+#include "renderer/trace/light_mask.h"
 #include "renderer/trace/surface.h"
 
 namespace cellcut {
@@ -89,6 +90,8 @@ class Path {
   }
 
  private:
+  bool shows(LightId light) const { return !context_.shownLights || context_.shownLights->shows(light); }
+
   void recordFirstHit(const SurfacePoint& surface, const Hit& hit, const Ray& ray) {
     if (!context_.auxiliary) return;
     result_.depth = hit.t;
@@ -102,7 +105,7 @@ class Path {
     float weight = 1;
     if (bounce_) {
       const std::optional<LightId> light = context_.lights.environmentLightAt(uv);
-      if (!light) return;
+      if (!light || !shows(*light)) return;
       weight = powerHeuristic(bounce_->pdf,
                               context_.sampler.pmf(bounce_->from, *light) * context_.lights.environmentPdf(*light, uv));
     }
@@ -115,7 +118,7 @@ class Path {
     float weight = 1;
     if (bounce_) {
       const std::optional<LightId> light = context_.lights.lightAt(hit.mesh, hit.triangle);
-      if (!light) return;
+      if (!light || !shows(*light)) return;
       weight = powerHeuristic(bounce_->pdf, context_.sampler.pmf(bounce_->from, *light) *
                                                 context_.lights.trianglePdf(*light, bounce_->from.p, surface.p));
     }
@@ -126,7 +129,7 @@ class Path {
     if (context_.record) context_.record->vertices.push_back(vertex.shadingPoint());
     const Sample4 numbers = random_.next();
     const std::optional<SampledLight> choice = context_.sampler.sample(vertex.shadingPoint(), numbers.wide(0));
-    if (!choice) return;
+    if (!choice || !shows(choice->light)) return;
     const std::optional<LightSample> light =
         context_.lights.sample(choice->light, vertex.surface.p, {numbers[1], numbers[2]});
     if (!light) {

@@ -12,6 +12,8 @@
 
 namespace cellcut {
 
+class LightMask;
+
 /// What paths did, in order, for benchmarks that do the same again piece by piece.
 struct PathRecord {
   struct TracedRay {
@@ -32,6 +34,7 @@ struct PathContext {
   bool bounceCanFind;            ///< BSDF rays can meet radiance: emissive or unlit triangles, or an environment
   bool auxiliary = false;        ///< albedo, normal and depth are wanted too
   PathRecord* record = nullptr;  ///< where to write down what was done; one thread only
+  const LightMask* shownLights = nullptr;  ///< null: all
 };
 
 struct PathCounts {

@@ -33,7 +33,8 @@ bool haveSameFilm(const RenderSettings& a, const RenderSettings& b) {
 
 /// With the same scene, sampler and film.
 bool haveSamePaths(const Scene& scene, const RenderSettings& a, const RenderSettings& b) {
-  return std::tie(a.maxDepth, a.sampling, a.seed) == std::tie(b.maxDepth, b.sampling, b.seed) &&
+  return std::tie(a.maxDepth, a.sampling, a.seed, a.shownLights) ==
+             std::tie(b.maxDepth, b.sampling, b.seed, b.shownLights) &&
          isSameView(viewOf(scene, a), viewOf(scene, b));
 }
 

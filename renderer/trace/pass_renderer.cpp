@@ -24,8 +24,16 @@ bool bounceCanFind(const PreparedScene& prepared) {
 
 PassRenderer::PassRenderer(const PreparedScene& prepared, const LightSampler& sampler, const RenderSettings& settings,
                            Film& film)
-    : context_{prepared.scene,    prepared.accel,          prepared.lights,   sampler,
-               settings.maxDepth, bounceCanFind(prepared), settings.auxiliary},
+    : shownLights_(settings.shownLights),
+      context_{prepared.scene,
+               prepared.accel,
+               prepared.lights,
+               sampler,
+               settings.maxDepth,
+               bounceCanFind(prepared),
+               settings.auxiliary,
+               nullptr,
+               settings.shownLights.get()},
       camera_(viewOf(prepared.scene, settings)),
       sampling_(settings.sampling),
       seed_(settings.seed),

@@ -36,6 +36,7 @@ class PassRenderer {
   std::uint64_t droppedSamples() const { return dropped_; }
 
  private:
+  std::shared_ptr<const LightMask> shownLights_;
   PathContext context_;
   Camera camera_;
   PixelSampling sampling_;

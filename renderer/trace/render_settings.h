@@ -8,9 +8,12 @@
 #include "renderer/scene/scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace cellcut {
+
+class LightMask;
 
 struct RenderSettings {
   int width = 1280;
@@ -24,6 +27,7 @@ struct RenderSettings {
   std::size_t camera = 0;      ///< index into Scene::cameras; sizes the grid of cells even where `view` is set
   std::optional<Camera> view;  ///< a free camera that is looked through instead
   bool auxiliary = true;       ///< albedo, normal and depth layers
+  std::shared_ptr<const LightMask> shownLights;  ///< light_mask.h; null: all
 };
 
 /// The camera that is looked through. \pre `settings.camera` exists

@@ -11,6 +11,9 @@
 
 #include <fstream>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,17 +22,27 @@ namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsSupersetOf;
+
+std::vector<std::string> channelsOf(const std::filesystem::path& exr) {
+  const Imf::InputFile file(exr.c_str());
+  std::vector<std::string> names;
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) names.emplace_back(channel.name());
+  return names;
+}
 
 /// The viewer in memory on a small stage of all kinds of light, played by scripts as a person plays it.
 class ViewerTest : public testing::Test {
  protected:
-  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {400, 720}})), scene_(sceneOf(40)) {
-    ViewerOptions options;
+  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {400, 720}})), scene_(sceneOf(40)) { open({}); }
+  void open(ViewerOptions options) {
     options.uiScale = 0.5f;  // all panels on a small picture, which llvmpipe draws quickly
     options.state.settings.maxDepth = 1;
     options.state.settings.threads = 2;
     options.state.passLimit = 2;
     options.saveFolder = folder_.path();
+    viewer_.reset();
     viewer_ = std::make_unique<Viewer>(
         *window_, scene_,
         [](const std::filesystem::path& file) { return std::make_shared<const Scene>(loadScene(file)); }, options);
@@ -104,6 +117,10 @@ TEST_F(ViewerTest, EveryOverlayShowsItsValues) {
     EXPECT_EQ(viewer_->overlay()->overlay, overlay.overlay);
     EXPECT_GT(viewer_->overlay()->statistics.count, 0u) << overlay.name;
   }
+  // All cells that are seen were touched: one value, and still a range from 0 to 1.
+  play("set Show touched\nwait idle\n");
+  const ColorScale scale(viewer_->overlay()->values, scaleOf(Overlay::kTouched, {}));
+  EXPECT_EQ(scale.range(), (ValueRange{0, 1}));
   ASSERT_TRUE(viewer_->overlay()->touched);
   EXPECT_GT(viewer_->overlay()->touched->inside, 0u);
 }
@@ -123,6 +140,69 @@ TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
   EXPECT_EQ(nlohmann::json::parse(window_->clipboard()).at("cut").at("clusters").size(), report.clusters.size());
   play("key Escape\n");
   EXPECT_FALSE(viewer_->state().pick);
+}
+
+double meanOf(const ImageRgb& image) {
+  glm::dvec3 sum(0.0);
+  for (const Vec3& c : image) sum += glm::dvec3(c);
+  return (sum.x + sum.y + sum.z) / (3 * static_cast<double>(image.size()));
+}
+
+TEST_F(ViewerTest, AClusterIsShownAloneAndLeftOut) {
+  const auto mean = [this] { return meanOf(*viewer_->session().snapshot()->radiance); };
+  play("wait idle\n");
+  const double all = mean();
+  play("pick 90 350\nwait idle\nclick \"Cluster 1\"\nexpect \"Cluster 1\" on\nclick Solo\nwait idle\n");
+  const double solo = mean();
+  play("key N\nkey M\nwait idle\n");
+  const double mute = mean();
+  // What is seen of the lights themselves is there with each of them.
+  play("click Close\nclick \"All lights\"\nset \"Max depth\" 0\nwait idle\n");
+  const double seen = mean();
+  EXPECT_NEAR(solo + mute - seen, all, 1e-5 * all);
+  EXPECT_GT(solo, seen);
+  EXPECT_LT(mute, all);
+  EXPECT_THAT(refusalOf("click \"All lights\"\n"), HasSubstr("nothing is labelled"));
+}
+
+TEST_F(ViewerTest, ABoxUnderThePointerSelectsItsRow) {
+  Scene lamps;
+  addQuad(lamps, addMaterial(lamps, lambertian(Vec3(0.5f))), {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  for (int i = 0; i < 3; ++i) lamps.pointLights.push_back({{static_cast<float>(i - 1), 1, 0}, Vec3(1)});
+  lamps.cameras.push_back(perspective({0, 2, 6}, {0, 0.5f, 0}, 1));
+  finish(lamps);
+  scene_ = std::make_shared<const Scene>(std::move(lamps));
+  open({});
+  play("wait idle\npick 100 450\nwait idle\n");
+  ASSERT_TRUE(viewer_->overlay()->inspection);
+  const std::vector<ClusterRow> rows = viewer_->overlay()->inspection->clusters;
+  ASSERT_EQ(rows.size(), 3u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto film = projectToFilm(scene_->cameras[0], rows[i].cluster.box.centre(),
+                                    {viewer_->state().settings.width, viewer_->state().settings.height});
+    ASSERT_TRUE(film);
+    const Vec2 at = viewer_->placement().toFramebuffer(*film);
+    if (!viewer_->imageArea().contains(at)) continue;
+    play("move " + std::to_string(at.x) + " " + std::to_string(at.y) + "\nkey X\n");
+    EXPECT_EQ(viewer_->state().hoveredCluster, i);
+    EXPECT_EQ(viewer_->state().selectedCluster, i);
+  }
+  EXPECT_TRUE(viewer_->state().selectedCluster);
+}
+
+TEST_F(ViewerTest, ASliceShowsCellsInMidAir) {
+  play("set Show cut-size\nwait idle\n");
+  const std::size_t onSurfaces = viewer_->overlay()->statistics.count;
+  play("set Slice \"across z\"\nset \"Slice at\" 0.4\nwait idle\n");
+  ASSERT_TRUE(viewer_->overlay()->slice);
+  const float before = *viewer_->overlay()->slice;
+  EXPECT_GT(viewer_->overlay()->statistics.count, 0u);
+  EXPECT_NE(viewer_->overlay()->statistics.count, onSurfaces);
+  play("key RightBracket\nkey RightBracket\nkey RightBracket\nwait idle\n");
+  EXPECT_GT(*viewer_->overlay()->slice, before);
+  play("key K\nwait idle\n");
+  EXPECT_FALSE(viewer_->overlay()->slice);
+  EXPECT_EQ(viewer_->overlay()->statistics.count, onSurfaces);
 }
 
 TEST_F(ViewerTest, PanelsAndSheetAreToggled) {
@@ -150,11 +230,15 @@ TEST_F(ViewerTest, ABadSceneIsRefusedAndTheOldOneGoesOn) {
 }
 
 TEST_F(ViewerTest, SavesTheWindowAndTheRendering) {
-  play("wait idle\nkey F12\n");
+  play("wait idle\nkey F12\nwait idle\n");
   EXPECT_THAT(viewer_->problem(), HasSubstr("saved"));
   std::size_t exr = 0, png = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
-    exr += entry.path().extension() == ".exr";
+    if (entry.path().extension() == ".exr") {
+      ++exr;
+      EXPECT_THAT(channelsOf(entry.path()),
+                  IsSupersetOf({"R", "albedo.R", "normal.X", "depth.Z", "variance.R", "cell.id", "cut.size"}));
+    }
     png += entry.path().extension() == ".png";
   }
   EXPECT_EQ(exr, 1u);
@@ -167,6 +251,38 @@ TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
   EXPECT_THAT(refusalOf("click \"Max\n"), HasSubstr("a quote has no end"));
   EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
   EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
+}
+
+TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {
+  const std::filesystem::path record = folder_ / "recorded.txt";
+  ViewerOptions recording;
+  recording.record = record;
+  open(recording);
+  play(
+      "wait idle\nset Strategy cell-cut\nset \"Max cut\" 40\nset Exposure 1.37\nset \"Tone map\" off\nset Channel "
+      "luminance\ndrag left 300 200 340 220\nscroll 300 200 2\nkey W\ndrag middle 300 200 280 240\nset Show "
+      "cut-size\nkey G\nsize 420 700\nwait idle\npick 90 300\nmove 300 210\nkey F\ndrag left 300 200 310 "
+      "190\nclick Statistics\nset \"Stop at spp\" 3\nkey P\n");
+  const ViewerState first = viewer_->state();
+  open({});
+  EXPECT_FALSE(first.settings.view && viewer_->state().settings.view);
+  ScriptPlayer(record, readScript(record), folder_.path()).play(*viewer_, *window_);
+  const ViewerState& second = viewer_->state();
+  EXPECT_EQ(first.settings.strategy, second.settings.strategy);
+  EXPECT_EQ(first.settings.sampler, second.settings.sampler);
+  EXPECT_EQ(first.settings.width, second.settings.width);
+  EXPECT_EQ(first.display.exposure, second.display.exposure);
+  EXPECT_EQ(first.display.toneMap, second.display.toneMap);
+  EXPECT_EQ(first.display.channel, second.display.channel);
+  EXPECT_EQ(first.overlay, second.overlay);
+  EXPECT_EQ(first.pick, second.pick);
+  EXPECT_EQ(first.passLimit, second.passLimit);
+  EXPECT_EQ(first.paused, second.paused);
+  ASSERT_TRUE(first.settings.view && second.settings.view);
+  // Sums of drags are rounded in another order.
+  EXPECT_LT(glm::length(first.settings.view->position - second.settings.view->position), 1e-4f);
+  EXPECT_LT(glm::length(first.settings.view->back - second.settings.view->back), 1e-4f);
+  EXPECT_EQ(viewer_->widgets().find("Samples"), nullptr) << "the section was closed";
 }
 
 TEST_F(ViewerTest, RandomEditsEndWithTheirOwnPicture) {

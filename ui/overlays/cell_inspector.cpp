@@ -92,8 +92,9 @@ std::optional<PixelReport> inspectPixel(const InspectionInputs& inputs, glm::ive
   report.kept = cut.kept;
   report.visits = cut.visits;
   for (const ClusterInspection& cluster : cut.clusters) {
-    ClusterRow& row = report.clusters.emplace_back(ClusterRow{.cluster = cluster});
-    for (const LightId light : inspector->lights(cluster)) {
+    ClusterRow& row =
+        report.clusters.emplace_back(ClusterRow{.cluster = cluster, .lights = inspector->lights(cluster)});
+    for (const LightId light : row.lights) {
       if (cancel.load(std::memory_order_relaxed)) return std::nullopt;
       const Contribution one = contributionOf(inputs.lights, inputs.accel, light, report.hit, samplesPerSide);
       row.contribution.unoccluded += one.unoccluded;

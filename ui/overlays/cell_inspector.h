@@ -15,9 +15,10 @@ namespace cellcut {
 /// A row of the table: a cluster, what the strategy thinks of it and what it truly sends.
 struct ClusterRow {
   ClusterInspection cluster;
-  Contribution contribution;  ///< of all of its lights, W/m²
-  double share = 0;           ///< of the visible contribution of the whole cut; 0 where nothing is visible
-  double mismatch = 0;        ///< probability − share, [−1, 1]: above 0 it is asked too often
+  std::vector<LightId> lights;  ///< in the order of the cluster's leaves
+  Contribution contribution;    ///< of all of its lights, W/m²
+  double share = 0;             ///< of the visible contribution of the whole cut; 0 where nothing is visible
+  double mismatch = 0;          ///< probability − share, [−1, 1]: above 0 it is asked too often
 };
 
 struct PixelReport {

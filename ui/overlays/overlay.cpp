@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 namespace cellcut {
@@ -30,20 +31,27 @@ float valueOf(Overlay overlay, const CutSummary& cut) {
 /// Values of cells, each found once: neighbouring pixels share theirs.
 class CellValues {
  public:
-  CellValues(Overlay overlay, const CutInspector& inspector) : overlay_(overlay), inspector_(inspector) {}
+  CellValues(Overlay overlay, const CutInspector& inspector, bool everyCell)
+      : overlay_(overlay), inspector_(inspector), everyCell_(everyCell) {}
 
   float at(const Vec3& p) {
     if (!inspector_.grid()) return ofPoint(p);
     const std::optional<CellCoordinates> cell = inspector_.cellOf(p);
     if (!cell) return ofPoint(p);
     const Cut* cut = inspector_.find(*cell);
-    if (!cut) return overlay_ == Overlay::kTouched || overlay_ == Overlay::kVisits ? 0 : kNoValue;
+    if (!cut && (overlay_ == Overlay::kTouched || overlay_ == Overlay::kVisits)) return 0;
+    if (!cut) return everyCell_ ? ofUntouched(*cell) : kNoValue;
     const auto [found, isNew] = values_.try_emplace(cut, kNoValue);
     if (isNew) found->second = valueOf(overlay_, inspector_.summary(*cut));
     return found->second;
   }
 
  private:
+  float ofUntouched(const CellCoordinates& cell) {
+    const auto [found, isNew] = untouched_.try_emplace({cell.x, cell.y, cell.z}, kNoValue);
+    if (isNew) found->second = valueOf(overlay_, inspector_.summaryOfCell(cell));
+    return found->second;
+  }
   /// Where every point has a cut of its own there is no cell to be touched or visited.
   float ofPoint(const Vec3& p) const {
     if (overlay_ == Overlay::kTouched || overlay_ == Overlay::kVisits) return kNoValue;
@@ -52,7 +60,9 @@ class CellValues {
 
   Overlay overlay_;
   const CutInspector& inspector_;
+  bool everyCell_;
   std::unordered_map<const Cut*, float> values_;
+  std::map<std::array<std::int32_t, 3>, float> untouched_;
 };
 
 std::optional<Image<float>> cellOverlay(Overlay overlay, const OverlayInputs& inputs, Image<float> values,
@@ -60,7 +70,7 @@ std::optional<Image<float>> cellOverlay(Overlay overlay, const OverlayInputs& in
   const std::optional<CutInspector> inspector =
       inputs.sampler ? CutInspector::of(*inputs.sampler) : std::optional<CutInspector>();
   if (!inspector || !inputs.firstHits) return values;
-  CellValues cells(overlay, *inspector);
+  CellValues cells(overlay, *inspector, inputs.everyCell);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (cancel.load(std::memory_order_relaxed)) return std::nullopt;
     const FirstHit& hit = (*inputs.firstHits)[i];
@@ -125,6 +135,15 @@ std::optional<Image<float>> computeOverlay(Overlay overlay, const OverlayInputs&
   const bool hasReference = inputs.mean && hasSize(inputs.reference, size);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = filmValue(overlay, inputs, hasReference, i);
   return values;
+}
+
+ScaleSettings scaleOf(Overlay overlay, const ScaleSettings& settings) {
+  ScaleSettings scale = settings;
+  if (overlay == Overlay::kTouched && !scale.pinned) {
+    scale.pinned = ValueRange{0, 1};
+    scale.kind = ScaleKind::kLinear;  // a logarithm has no 0
+  }
+  return scale;
 }
 
 OverlayStatistics statisticsOf(const Image<float>& values) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "renderer/sampling/inspection.h"
+#include "ui/overlays/color_scale.h"
 #include "ui/overlays/first_hits.h"
 
 #include <array>
@@ -66,10 +67,11 @@ std::optional<Overlay> overlayFromName(std::string_view name);
 struct OverlayInputs {
   const Image<FirstHit>* firstHits = nullptr;
   const LightSampler* sampler = nullptr;
-  const ImageRgb* mean = nullptr;                    ///< Film::mean()
-  const ImageRgb* standardError = nullptr;           ///< Film::standardError()
-  std::uint64_t passes = 0;                          ///< Film::passes()
-  const ImageRgb* reference = nullptr;               ///< of the picture's size; another size has no error to show
+  bool everyCell = false;                   ///< cells that no path touched have the cut that one would find there
+  const ImageRgb* mean = nullptr;           ///< Film::mean()
+  const ImageRgb* standardError = nullptr;  ///< Film::standardError()
+  std::uint64_t passes = 0;                 ///< Film::passes()
+  const ImageRgb* reference = nullptr;      ///< of the picture's size; another size has no error to show
   const Image<std::uint16_t>* badSamples = nullptr;  ///< Film::badSampleCounts(); null or empty: none was bad
 };
 
@@ -83,6 +85,9 @@ struct OverlayInputs {
 /// \return nothing if `cancel` became true first
 std::optional<Image<float>> computeOverlay(Overlay overlay, const OverlayInputs& inputs, glm::ivec2 size,
                                            const std::atomic<bool>& cancel);
+
+/// The settings with the overlay's own automatic range: "touched" is 0 to 1 even where every cell, or none, is.
+ScaleSettings scaleOf(Overlay overlay, const ScaleSettings& settings);
 
 /// Of the finite values of a picture.
 struct OverlayStatistics {

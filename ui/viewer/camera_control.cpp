@@ -94,16 +94,15 @@ std::optional<Vec2> projectToFilm(const Camera& camera, const Vec3& p, glm::ivec
   return Vec2(half.x + offset.x * half.y, half.y - offset.y * half.y);
 }
 
-std::string cameraToJson(const Camera& camera) {
-  return nlohmann::json{{"position", toJson(camera.position)},
-                        {"back", toJson(camera.back)},
-                        {"up", toJson(camera.up)},
-                        {"half_height", camera.halfHeight},
-                        {"orthographic", camera.orthographic}}
+std::string poseToJson(const CameraPose& pose) {
+  const Camera& camera = pose.camera;
+  return nlohmann::json{
+      {"position", toJson(camera.position)}, {"back", toJson(camera.back)}, {"up", toJson(camera.up)},
+      {"half_height", camera.halfHeight},    {"focus", pose.focus},         {"orthographic", camera.orthographic}}
       .dump();
 }
 
-Camera cameraFromJson(const std::string& text) {
+CameraPose poseFromJson(const std::string& text, const Bounds& scene) {
   const std::string place = "camera from the clipboard";
   try {
     const auto json = nlohmann::json::parse(text);
@@ -117,8 +116,10 @@ Camera cameraFromJson(const std::string& text) {
     camera.up = glm::cross(camera.back, camera.right);
     const bool valid = isFinite(camera.position) && isFinite(camera.up) && isFinite(camera.right) &&
                        camera.halfHeight > 0 && std::isfinite(camera.halfHeight);
-    if (!valid) throw InputError(place, "its numbers are no view");
-    return camera;
+    CameraPose pose = poseOf(camera, scene);
+    pose.focus = json.value("focus", pose.focus);
+    if (!valid || !(pose.focus > 0) || !std::isfinite(pose.focus)) throw InputError(place, "its numbers are no view");
+    return pose;
   } catch (const nlohmann::json::exception&) {
     throw InputError(place, "the clipboard holds no camera; copy one with Ctrl+C first");
   }

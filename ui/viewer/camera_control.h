@@ -38,9 +38,10 @@ CameraPose flown(CameraPose pose, const Vec3& step);
 /// Where a point of the scene appears: film pixels, as cameraRay() takes them; nothing behind the camera.
 std::optional<Vec2> projectToFilm(const Camera& camera, const Vec3& p, glm::ivec2 size);
 
-/// {"position": […], "back": […], "up": […], "half_height": …, "orthographic": …}, as copied to the clipboard.
-std::string cameraToJson(const Camera& camera);
+/// {"position": […], "back": […], "up": […], "half_height": …, "focus": …, "orthographic": …}, as copied to the clipboard.
+std::string poseToJson(const CameraPose& pose);
+/// Without "focus" it is that of poseOf().
 /// \throws InputError if the text is no such object or its axes cannot be made orthogonal
-Camera cameraFromJson(const std::string& text);
+CameraPose poseFromJson(const std::string& text, const Bounds& scene);
 
 }  // namespace cellcut

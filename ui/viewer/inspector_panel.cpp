@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 
 #include <imgui.h>
 
@@ -16,8 +17,8 @@ std::string cellText(const CellCoordinates& cell) {
   return std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " + std::to_string(cell.z);
 }
 
-/// Indices of the rows that are shown: the largest of probability and share first.
-std::vector<std::size_t> rowOrder(const std::vector<ClusterRow>& rows) {
+/// Indices of the rows that are shown: the largest of probability and share first. `wanted` is among them.
+std::vector<std::size_t> rowOrder(const std::vector<ClusterRow>& rows, std::optional<std::size_t> wanted) {
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto weight = [&](std::size_t i) { return std::max(rows[i].cluster.probability, rows[i].share); };
@@ -26,6 +27,9 @@ std::vector<std::size_t> rowOrder(const std::vector<ClusterRow>& rows) {
     return weight(a) != weight(b) ? weight(a) > weight(b) : a < b;
   });
   order.erase(end, order.end());
+  if (wanted && *wanted < rows.size() && std::find(order.begin(), order.end(), *wanted) == order.end()) {
+    order.push_back(*wanted);
+  }
   return order;
 }
 
@@ -34,26 +38,32 @@ void percent(double value) {
   ImGui::Text("%.2f", 100 * value);
 }
 
-void drawTable(const std::vector<ClusterRow>& rows, ViewerState& state) {
+/// \param pointed  the row whose box in the picture is under the pointer
+void drawTable(Widgets& widgets, const std::vector<ClusterRow>& rows, std::optional<std::size_t> pointed,
+               ViewerState& state) {
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
   if (!ImGui::BeginTable("clusters", 5, kFlags, ImVec2(0, 14 * ImGui::GetTextLineHeightWithSpacing()))) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   for (const char* column : {"lights", "estimate", "P %", "true %", "diff"}) ImGui::TableSetupColumn(column);
   ImGui::TableHeadersRow();
-  for (const std::size_t i : rowOrder(rows)) {
+  std::size_t place = 0;
+  for (const std::size_t i : rowOrder(rows, pointed)) {
     const ClusterRow& row = rows[i];
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushID(static_cast<int>(i));
     const std::string name = std::to_string(row.cluster.lightCount) + (row.cluster.distant ? " far" : "");
-    ImGui::Selectable(name.c_str(), state.hoveredCluster == i, ImGuiSelectableFlags_SpanAllColumns);
+    const std::string label = "Cluster " + std::to_string(++place);
+    if (widgets.row(label.c_str(), name.c_str(), pointed == i || state.selectedCluster == i)) {
+      state.selectedCluster = i;
+      state.selectedLight = 0;
+    }
+    if (pointed == i && !ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.5f);
     if (ImGui::IsItemHovered()) {
       state.hoveredCluster = i;
       ImGui::SetTooltip("%s cluster of %u lights, level %d\nunoccluded %.4g W/m2, visible %.4g W/m2",
                         row.cluster.far ? "cached" : "near", row.cluster.lightCount, row.cluster.depth,
                         row.contribution.unoccluded, row.contribution.visible);
     }
-    ImGui::PopID();
     ImGui::TableNextColumn();
     ImGui::Text("%.2e", row.cluster.estimate);
     percent(row.cluster.probability);
@@ -63,11 +73,28 @@ void drawTable(const std::vector<ClusterRow>& rows, ViewerState& state) {
   ImGui::EndTable();
 }
 
+/// What is shown alone or left out: a cluster, or a light of it.
+ViewerCommand drawSelection(Widgets& widgets, const std::vector<ClusterRow>& rows, ViewerState& state) {
+  if (!state.selectedCluster || *state.selectedCluster >= rows.size()) {
+    ImGui::TextWrapped("Click a row, or X on a box, to select a cluster.");
+    return ViewerCommand::kNone;
+  }
+  const ClusterRow& row = rows[*state.selectedCluster];
+  const auto count = static_cast<int>(row.lights.size());
+  state.selectedLight = std::min(state.selectedLight, count);
+  if (count > 1) widgets.slider("Light", state.selectedLight, 0, count, "One light of the cluster, 0 for all of them");
+  ViewerCommand command = ViewerCommand::kNone;
+  if (widgets.button("Solo", "Render what it contributes alone (L)")) command = ViewerCommand::kSolo;
+  ImGui::SameLine();
+  if (widgets.button("Mute", "Render all but what it contributes (M)")) command = ViewerCommand::kMute;
+  return command;
+}
+
 }  // namespace
 
 ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
-  state.hoveredCluster.reset();
-  if (!state.pick || !ImGui::CollapsingHeader("Inspector", ImGuiTreeNodeFlags_DefaultOpen)) return ViewerCommand::kNone;
+  const std::optional<std::size_t> pointed = std::exchange(state.hoveredCluster, std::nullopt);
+  if (!state.pick || !widgets.section("Inspector")) return ViewerCommand::kNone;
   ViewerCommand command = ViewerCommand::kNone;
   if (!facts.overlay || !facts.overlay->inspection) {
     ImGui::TextUnformatted("looking …");
@@ -95,7 +122,8 @@ ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, Vie
           "Mismatch", shortNumber(*report.distance, 3),
           "Total variation distance between the probabilities and the true visible shares: 0 perfect, 1 hopeless");
     }
-    drawTable(report.clusters, state);
+    drawTable(widgets, report.clusters, pointed, state);
+    command = drawSelection(widgets, report.clusters, state);
     if (widgets.button("Copy cut", "The table as JSON to the clipboard")) command = ViewerCommand::kExportCut;
     ImGui::SameLine();
   }

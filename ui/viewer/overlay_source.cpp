@@ -33,12 +33,20 @@ int samplesPerSide(std::size_t lights) {
   return std::clamp(static_cast<int>(std::sqrt(2e6 / static_cast<double>(std::max<std::size_t>(lights, 1)))), 1, 8);
 }
 
-ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, bool grid, const PixelReport* inspection) {
-  constexpr Rgba8 kCells(255, 255, 255, 110), kPickedCell(255, 200, 40, 255);
+bool isOfCells(Overlay overlay) {
+  return overlay >= Overlay::kTouched && overlay <= Overlay::kTreeDepth;
+}
+
+ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, const OverlayChoice& choice,
+                     const PixelReport* inspection) {
+  constexpr Rgba8 kCells(255, 255, 255, 110), kPickedCell(255, 200, 40, 255), kSlice(255, 255, 255, 60);
   constexpr std::uint8_t kClusterAlpha = 200;
   std::vector<Segment> segments;
-  if (grid) {
-    if (const auto inspector = CutInspector::of(view.sampler)) segments = touchedCellSegments(*inspector, kCells);
+  const auto inspector = CutInspector::of(view.sampler);
+  if (choice.grid && inspector) segments = touchedCellSegments(*inspector, kCells);
+  if (choice.slice.axis != SliceAxis::kNone && inspector && inspector->grid()) {
+    const std::vector<Segment> plane = sliceSegments(choice.slice, *inspector->grid(), kSlice);
+    segments.insert(segments.end(), plane.begin(), plane.end());
   }
   if (inspection) {
     std::vector<ClusterInspection> clusters;
@@ -68,17 +76,28 @@ void OverlaySource::request(RenderSession& session, const OverlayChoice& choice,
   if (busy()) return;
   pending_ = session.inspect([cache = cache_, choice, pick, reference](const SessionView& view) {
     OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};
+    picture.lightCount = view.lights.size();
     const glm::ivec2 size(view.settings.width, view.settings.height);
     const Image<FirstHit>* hits = cache->of(view);
     if (!hits) return picture;
     const ImageRgb mean = view.film.mean(), error = view.film.standardError();
-    const OverlayInputs inputs{.firstHits = hits,
-                               .sampler = &view.sampler,
-                               .mean = &mean,
-                               .standardError = &error,
-                               .passes = view.film.passes(),
-                               .reference = reference.get(),
-                               .badSamples = &view.film.badSampleCounts()};
+    OverlayInputs inputs{.firstHits = hits,
+                         .sampler = &view.sampler,
+                         .mean = &mean,
+                         .standardError = &error,
+                         .passes = view.film.passes(),
+                         .reference = reference.get(),
+                         .badSamples = &view.film.badSampleCounts()};
+    Image<FirstHit> plane;
+    const auto inspector = CutInspector::of(view.sampler);
+    if (choice.slice.axis != SliceAxis::kNone && inspector && inspector->grid()) {
+      picture.slice = coordinateOf(choice.slice, *inspector->grid());
+      if (isOfCells(choice.overlay)) {
+        plane = sliceHits(choice.slice, *inspector->grid(), viewOf(view.scene, view.settings), *hits);
+        inputs.firstHits = &plane;
+        inputs.everyCell = true;
+      }
+    }
     if (choice.overlay != Overlay::kNone) {
       if (auto values = computeOverlay(choice.overlay, inputs, size, cache->stop)) {
         picture.values = std::move(*values);
@@ -98,8 +117,18 @@ void OverlaySource::request(RenderSession& session, const OverlayChoice& choice,
                                     .passes = view.film.passes()};
       picture.inspection = inspectPixel(looked, *pick, samplesPerSide(view.lights.size()), cache->stop);
     }
-    picture.lines = drawLines(view, *hits, choice.grid, picture.inspection ? &*picture.inspection : nullptr);
+    picture.lines = drawLines(view, *hits, choice, picture.inspection ? &*picture.inspection : nullptr);
     return picture;
+  });
+}
+
+std::future<LayeredImage> OverlaySource::layers(RenderSession& session) const {
+  return session.inspect([cache = cache_](const SessionView& view) {
+    const Image<FirstHit>* hits = cache->of(view);
+    std::optional<LayeredImage> layers;
+    if (hits) layers = layersOf(view.film, view.sampler, *hits, cache->stop);
+    if (!layers) throw std::runtime_error("stopped");
+    return std::move(*layers);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "renderer/trace/session.h"
 #include "ui/overlays/cell_inspector.h"
+#include "ui/overlays/layers.h"
 #include "ui/overlays/wireframe.h"
 #include "ui/viewer/viewer_state.h"
 
@@ -20,8 +21,10 @@ struct OverlayPicture {
   Image<float> values;  ///< empty without an overlay
   OverlayStatistics statistics;
   std::optional<TouchedCells> touched;
-  ImageRgba8 lines;  ///< wireframe, transparent elsewhere; empty without lines
+  ImageRgba8 lines;            ///< wireframe, transparent elsewhere; empty without lines
+  std::optional<float> slice;  ///< where the plane lies on its axis, metres
   std::optional<PixelReport> inspection;
+  std::size_t lightCount = 0;  ///< of the scene
 };
 
 /// At most one request is on its way. Threads: one (the UI's).
@@ -36,6 +39,8 @@ class OverlaySource {
   /// \param reference  may be null
   void request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
                std::shared_ptr<const ImageRgb> reference);
+  /// The rendering as layersOf(). The future is broken when there is no picture.
+  std::future<LayeredImage> layers(RenderSession& session) const;
   /// What came in since the last call.
   std::optional<OverlayPicture> take();
   bool busy() const { return pending_.valid(); }

@@ -33,7 +33,10 @@ enum class ViewerCommand {
   kSingleStep,
   kDismiss,  ///< the problem
   kUnpick,
-  kExportCut
+  kExportCut,
+  kSolo,  ///< only the selected lights
+  kMute,  ///< all but the selected lights
+  kAllLights
 };
 
 ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);

@@ -17,8 +17,9 @@ struct Verb {
   std::string_view name;
   std::size_t words;  ///< with the verb
 };
-constexpr Verb kVerbs[] = {{"size", 3}, {"click", 2}, {"set", 3},        {"drag", 6},   {"scroll", 4}, {"key", 2},
-                           {"pick", 3}, {"drop", 2},  {"screenshot", 2}, {"expect", 3}, {"quit", 1}};
+constexpr Verb kVerbs[] = {{"size", 3},       {"click", 2},  {"set", 3}, {"drag", 6}, {"scroll", 4},
+                           {"move", 3},       {"view", 13},  {"key", 2}, {"pick", 3}, {"drop", 2},
+                           {"screenshot", 2}, {"expect", 3}, {"quit", 1}};
 
 std::string placeOf(const std::filesystem::path& file, int line) {
   return file.string() + ":" + std::to_string(line);
@@ -98,8 +99,24 @@ float ScriptPlayer::number(const ScriptAction& action, std::size_t word) const {
   return static_cast<float>(*value);
 }
 
-const WidgetItem& ScriptPlayer::item(const ScriptAction& action, const Stage& stage, const std::string& label) const {
-  if (const WidgetItem* found = stage.viewer.widgets().find(label)) return *found;
+WidgetItem ScriptPlayer::item(const ScriptAction& action, Stage& stage, const std::string& label) const {
+  const auto start = std::chrono::steady_clock::now();
+  while (!stage.viewer.widgets().find(label) && !stage.viewer.settled()) {
+    frames(stage, 1);
+    if (std::chrono::steady_clock::now() - start > kLongestWait) fail(action, "waited for ten minutes");
+    stage.window.waitEvents(0.1);
+  }
+  const WidgetItem* found = stage.viewer.widgets().find(label);
+  if (found && !found->visible) {
+    stage.viewer.reveal(label);
+    frames(stage, 2);
+    found = stage.viewer.widgets().find(label);
+  }
+  if (!found) failMissing(action, stage, label);
+  return *found;
+}
+
+void ScriptPlayer::failMissing(const ScriptAction& action, const Stage& stage, const std::string& label) const {
   std::string known;
   for (const WidgetItem& i : stage.viewer.widgets().items()) known += (known.empty() ? "" : ", ") + i.label;
   fail(action, "nothing is labelled '" + label + "'; there are " + known);
@@ -168,8 +185,14 @@ void ScriptPlayer::set(const ScriptAction& action, Stage& stage) const {
       return;
     case WidgetItem::Kind::kChoice: {
       clickAt(stage, middle);
-      const WidgetItem option = item(action, stage, value);
-      clickAt(stage, 0.5f * (option.lower + option.upper));
+      const WidgetItem* option = stage.viewer.widgets().findOption(value);
+      if (option && !option->visible) {
+        stage.viewer.reveal(value);
+        frames(stage, 2);
+        option = stage.viewer.widgets().findOption(value);
+      }
+      if (!option) failMissing(action, stage, value);
+      clickAt(stage, 0.5f * (option->lower + option->upper));
       return;
     }
     case WidgetItem::Kind::kNumber:
@@ -189,6 +212,21 @@ void ScriptPlayer::set(const ScriptAction& action, Stage& stage) const {
     default:
       fail(action, "'" + action.words[1] + "' cannot be set; click it");
   }
+}
+
+void ScriptPlayer::paste(const ScriptAction& action, Stage& stage) const {
+  const auto vector = [&](std::size_t word) {
+    return Vec3(number(action, word), number(action, word + 1), number(action, word + 2));
+  };
+  CameraPose pose;
+  pose.camera.position = vector(1);
+  pose.camera.back = vector(4);
+  pose.camera.up = vector(7);
+  pose.camera.halfHeight = number(action, 10);
+  pose.focus = number(action, 11);
+  pose.camera.orthographic = action.words[12] == "orthographic";
+  stage.window.setClipboard(poseToJson(pose));
+  press(stage, "Ctrl+V");
 }
 
 void ScriptPlayer::wait(const ScriptAction& action, Stage& stage) const {
@@ -245,6 +283,11 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
     }
     stage.window.post(MouseButtonChange{button, false});
     frames(stage, 2);
+  } else if (words[0] == "move") {
+    stage.window.post(MouseMove{at(1)});
+    frames(stage, 2);
+  } else if (words[0] == "view") {
+    paste(action, stage);
   } else if (words[0] == "scroll") {
     stage.window.post(MouseMove{at(1)});
     frames(stage, 1);

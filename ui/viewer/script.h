@@ -5,15 +5,19 @@
 ///     click LABEL              a button, a checkbox, a name in an open list
 ///     set LABEL VALUE          a checkbox (on, off), a number, a choice
 ///     drag left|middle|right X0 Y0 X1 Y1
+///     move X Y                 of the pointer
 ///     scroll X Y DY            notches, > 0 away from the person
 ///     key NAME                 "F1", "G", "Ctrl+C"
 ///     pick X Y                 a click on that pixel of the picture
+///     view POSITION BACK UP HALF_HEIGHT FOCUS perspective|orthographic
+///                              three numbers each; pasted from the clipboard
 ///     drop FILE
 ///     wait spp N | wait idle   idle: nothing is left to render, load or look up
 ///     screenshot FILE          .png
 ///     expect LABEL VALUE       numbers are compared as numbers
 ///     quit
 ///
+/// What is not there yet is waited for while something is looked up, and what is scrolled out of its panel comes in.
 /// A LABEL of several words stands in quotes; # begins a comment. Positions: framebuffer pixels, origin top left.
 #pragma once
 
@@ -57,7 +61,10 @@ class ScriptPlayer {
   void set(const ScriptAction& action, Stage& stage) const;
   void wait(const ScriptAction& action, Stage& stage) const;
   void expect(const ScriptAction& action, Stage& stage) const;
-  const WidgetItem& item(const ScriptAction& action, const Stage& stage, const std::string& label) const;
+  void paste(const ScriptAction& action, Stage& stage) const;
+  /// Where it can be clicked: waits for it and scrolls to it.
+  WidgetItem item(const ScriptAction& action, Stage& stage, const std::string& label) const;
+  [[noreturn]] void failMissing(const ScriptAction& action, const Stage& stage, const std::string& label) const;
   float number(const ScriptAction& action, std::size_t word) const;
   [[noreturn]] void fail(const ScriptAction& action, const std::string& problem) const;
 

@@ -1,7 +1,7 @@
 #include "ui/viewer/viewer.h"
 
 #include "renderer/base/error.h"
-#include "renderer/scene/camera.h"
+#include "renderer/trace/light_mask.h"
 
 #include <chrono>
 #include <ctime>
@@ -14,22 +14,11 @@ namespace {
 
 /// Panels' width in letters.
 constexpr float kPanelLetters = 25;
-/// Pixels that a pointer may move between press and release of a click.
-constexpr float kClickSlack = 3;
-/// Radians per framebuffer height that a drag turns the camera.
-constexpr float kTurnPerHeight = 3;
-/// Shares of the focus distance that flying covers in a second.
-constexpr float kFlySpeed = 0.7f;
-
-Vec2 mousePosition() {
-  return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
-}
-
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
   const bool sameCamera =
       a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || sameView(*a.view, *b.view));
   return sameCamera && a.width == b.width && a.height == b.height && a.maxDepth == b.maxDepth &&
-         a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler;
+         a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler && a.shownLights == b.shownLights;
 }
 
 bool sameInput(const SessionInput& a, const SessionInput& b) {
@@ -38,7 +27,13 @@ bool sameInput(const SessionInput& a, const SessionInput& b) {
 }
 
 bool sameOverlay(const ViewerState& a, const ViewerState& b) {
-  return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid && a.pick == b.pick;
+  return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid &&
+         a.overlay.slice == b.overlay.slice && a.pick == b.pick;
+}
+
+template <class T>
+bool isReady(const std::future<T>& future) {
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 std::string timeStamp() {
@@ -61,18 +56,19 @@ Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader l
       pose_(poseOf(viewOf(*scene_, state_.settings), scene_->bounds)),
       gui_(window, {.scale = options_.uiScale * window.contentScale()}),
       session_([&window] { window.wake(); }) {
+  if (options_.record) recorder_ = std::make_unique<ScriptRecorder>(*options_.record);
   snapshot_ = session_.snapshot();
 }
 
 Viewer::~Viewer() = default;
 
 double Viewer::sleepSeconds() const {
-  if (flying_ || gui_.inputPending()) return 0;
-  return loading_.valid() || overlays_.busy() ? 0.02 : 0.25;
+  if (flying_ || pointing_ || gui_.inputPending()) return 0;
+  return loading_.valid() || saving_.valid() || overlays_.busy() ? 0.02 : 0.25;
 }
 
 bool Viewer::settled() const {
-  return !edited_ && !loading_.valid() && !overlays_.busy() && !gui_.inputPending() &&
+  return !edited_ && !loading_.valid() && !saving_.valid() && !overlays_.busy() && !gui_.inputPending() &&
          session_.snapshot()->generation >= generation_ && (!overlayWanted() || overlayIsCurrent());
 }
 
@@ -91,13 +87,14 @@ void Viewer::open(const std::filesystem::path& file) {
 }
 
 void Viewer::takeScene() {
-  if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!isReady(loading_)) return;
   guarded([this] {
     scene_ = loading_.get();
     options_.file = loadingFile_;
     problem_.clear();
     state_.settings.camera = std::min(state_.settings.camera, scene_->cameras.size() - 1);
     state_.settings.view.reset();
+    state_.settings.shownLights.reset();
     state_.pick.reset();
     pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
     window_.setTitle("cellcut: " + options_.file.filename().string());
@@ -106,8 +103,12 @@ void Viewer::takeScene() {
 }
 
 void Viewer::takeNews() {
-  for (const std::filesystem::path& file : window_.takeDroppedFiles()) open(file);
+  for (const std::filesystem::path& file : window_.takeDroppedFiles()) {
+    open(file);
+    if (recorder_) recorder_->pictureChangesAfter({"drop", std::filesystem::absolute(file).string()});
+  }
   takeScene();
+  if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
     snapshot_ = newest;
@@ -126,20 +127,27 @@ void Viewer::frame(double seconds) {
   const std::vector<InputEvent> events = window_.takeEvents();
   if (size.empty()) return;
   if (!framebuffer_ || framebuffer_->size() != size) framebuffer_ = std::make_unique<GlFramebuffer>(size);
+  if (recorder_ && size != recordedSize_) {
+    recorder_->pictureChangesAfter({"size", std::to_string(size.width), std::to_string(size.height)});
+    recordedSize_ = size;
+  }
   takeNews();
 
   gui_.beginFrame(size, seconds, events);
-  shown_ = Widgets();
+  shown_ = Widgets(std::exchange(reveal_, ""));
   const float panel =
       state_.showUi ? std::min(kPanelLetters * ImGui::GetFontSize(), 0.45f * static_cast<float>(size.width)) : 0;
   area_ = {{panel, 0}, {static_cast<float>(size.width) - panel, static_cast<float>(size.height)}};
   if (state_.showUi) drawPanels();
   if (state_.showHelp) drawHelp(state_.showHelp);
+  recordKeys();
   run(readKeys(seconds));
   followSize();
   const PixelSize rendered{snapshot_->width, snapshot_->height};
   if (!rendered.empty()) placement_ = fitImage(rendered, area_);
   readMouse();
+  recordFrame();
+  pointAtCluster();
   applyEdits();
   requestOverlay();
   showOverlay();
@@ -198,19 +206,41 @@ void Viewer::run(ViewerCommand command) {
       pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
       return;
     case ViewerCommand::kCopyCamera:
-      return window_.setClipboard(cameraToJson(viewOf(*scene_, state_.settings)));
+      return window_.setClipboard(poseToJson(pose()));
     case ViewerCommand::kPasteCamera:
-      return guarded([this] { setPose(poseOf(cameraFromJson(window_.clipboard()), scene_->bounds)); });
+      return guarded([this] {
+        setPose(poseFromJson(window_.clipboard(), scene_->bounds));
+        if (recorder_) recorder_->view(pose());
+      });
     case ViewerCommand::kSingleStep:
       return session_.singleStep();
     case ViewerCommand::kDismiss:
       return problem_.clear();
     case ViewerCommand::kUnpick:
       return state_.pick.reset();
+    case ViewerCommand::kSolo:
+    case ViewerCommand::kMute:
+      return showLights(command == ViewerCommand::kSolo);
+    case ViewerCommand::kAllLights:
+      return state_.settings.shownLights.reset();
     case ViewerCommand::kExportCut:
       if (overlay_ && overlay_->inspection) window_.setClipboard(toJson(*overlay_->inspection).dump(2));
       return;
   }
+}
+
+void Viewer::showLights(bool solo) {
+  const std::optional<std::size_t> row = state_.selectedCluster ? state_.selectedCluster : state_.hoveredCluster;
+  if (!row || !overlay_ || !overlay_->inspection || *row >= overlay_->inspection->clusters.size()) return;
+  std::span<const LightId> lights = overlay_->inspection->clusters[*row].lights;
+  if (row == state_.selectedCluster && state_.selectedLight > 0) {
+    lights = lights.subspan(static_cast<std::size_t>(state_.selectedLight) - 1, 1);
+  }
+  std::vector<bool> shown(overlay_->lightCount, !solo);
+  // Muting goes on from what is shown; solo begins anew.
+  if (!solo && state_.settings.shownLights) shown = state_.settings.shownLights->shown();
+  for (const LightId light : lights) shown[static_cast<std::size_t>(light)] = solo;
+  state_.settings.shownLights = std::make_shared<const LightMask>(std::move(shown));
 }
 
 void Viewer::storePicture() {
@@ -218,103 +248,6 @@ void Viewer::storePicture() {
   view_.setImage(ImageSlot::kB, *snapshot_->radiance);
   if (!stored_) state_.display.split = 0.5f;
   stored_ = true;
-}
-
-ViewerCommand Viewer::readKeys(double seconds) {
-  flip_ = false;
-  flying_ = false;
-  if (gui_.keyPressed(Key::kF1)) state_.showHelp = !state_.showHelp;
-  if (gui_.keyPressed(Key::kF2)) state_.showUi = !state_.showUi;
-  if (gui_.keyPressed(Key::kF5)) return ViewerCommand::kReload;
-  if (gui_.keyPressed(Key::kF12)) return ViewerCommand::kSave;
-  if (gui_.wantsKeyboard()) return ViewerCommand::kNone;
-  if (gui_.controlDown()) {
-    if (gui_.keyPressed(Key::kC)) return ViewerCommand::kCopyCamera;
-    return gui_.keyPressed(Key::kV) ? ViewerCommand::kPasteCamera : ViewerCommand::kNone;
-  }
-  fly(seconds);
-  flip_ = gui_.keyDown(Key::kB);
-  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
-    if (gui_.keyPressed(static_cast<Key>(static_cast<int>(Key::k1) + static_cast<int>(i)))) {
-      state_.settings.strategy = kStrategies[i].strategy;
-    }
-  }
-  if (gui_.keyPressed(Key::kO)) {
-    const auto count = static_cast<int>(kOverlays.size());
-    const int step = gui_.shiftDown() ? count - 1 : 1;
-    state_.overlay.overlay = static_cast<Overlay>((static_cast<int>(state_.overlay.overlay) + step) % count);
-  }
-  if (gui_.keyPressed(Key::kG)) state_.overlay.grid = !state_.overlay.grid;
-  if (gui_.keyPressed(Key::kP)) state_.paused = !state_.paused;
-  if (gui_.keyPressed(Key::kEqual, true) || gui_.keyPressed(Key::kKeypadAdd, true)) state_.display.exposure += 0.25f;
-  if (gui_.keyPressed(Key::kMinus, true) || gui_.keyPressed(Key::kKeypadSubtract, true))
-    state_.display.exposure -= 0.25f;
-  if (gui_.keyPressed(Key::kEscape)) return ViewerCommand::kUnpick;
-  if (gui_.keyPressed(Key::kPeriod)) return ViewerCommand::kSingleStep;
-  if (gui_.keyPressed(Key::kT)) return ViewerCommand::kStore;
-  if (gui_.keyPressed(Key::kF)) focusAt(mousePosition());
-  return gui_.keyPressed(Key::kR) ? ViewerCommand::kResetCamera : ViewerCommand::kNone;
-}
-
-CameraPose Viewer::pose() const {
-  return {viewOf(*scene_, state_.settings), pose_.focus};
-}
-
-void Viewer::setPose(const CameraPose& pose) {
-  pose_ = pose;
-  state_.settings.view = pose.camera;
-}
-
-void Viewer::fly(double seconds) {
-  const auto axis = [&](Key plus, Key minus) {
-    return static_cast<float>(gui_.keyDown(plus)) - static_cast<float>(gui_.keyDown(minus));
-  };
-  const Vec3 along(axis(Key::kD, Key::kA), axis(Key::kE, Key::kQ) + axis(Key::kSpace, Key::kC), axis(Key::kW, Key::kS));
-  if (along == Vec3(0)) return;
-  flying_ = true;
-  const float speed = kFlySpeed * pose_.focus * (gui_.shiftDown() ? 10.0f : 1.0f);
-  // A long frame is no reason to leave the building.
-  setPose(flown(pose(), along * speed * static_cast<float>(std::min(seconds, 0.1))));
-}
-
-void Viewer::readMouse() {
-  const ImGuiIO& io = ImGui::GetIO();
-  const Vec2 position = mousePosition();
-  const bool free = !gui_.wantsMouse() && area_.contains(position);
-  if (free && io.MouseWheel != 0) setPose(dollied(pose(), io.MouseWheel));
-  const Vec2 share = Vec2(io.MouseDelta.x, io.MouseDelta.y) / area_.size.y;
-  for (int button = 0; button < kMouseButtonCount; ++button) {
-    Drag& drag = drags_[button];
-    if (ImGui::IsMouseClicked(button)) drag = {free, false, position};
-    if (!drag.active) continue;
-    if (glm::length(position - drag.start) > kClickSlack) drag.moved = true;
-    if (drag.moved && share != Vec2(0)) {
-      if (button == ImGuiMouseButton_Left) setPose(orbited(pose(), kTurnPerHeight * share));
-      if (button == ImGuiMouseButton_Right) setPose(turned(pose(), kTurnPerHeight * share));
-      if (button == ImGuiMouseButton_Middle) setPose(panned(pose(), share));
-    }
-    if (ImGui::IsMouseDown(button)) continue;
-    if (button == ImGuiMouseButton_Left && !drag.moved) {
-      const std::optional<glm::ivec2> pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
-      if (pixel) state_.pick = pixel;
-    }
-    drag.active = false;
-  }
-}
-
-void Viewer::focusAt(const Vec2& position) {
-  const auto pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
-  if (!pixel) return;
-  // One ray: the session answers within a pass.
-  const auto distance = session_
-                            .inspect([pixel = *pixel](const SessionView& view) {
-                              const Ray ray = cameraRay(viewOf(view.scene, view.settings), Vec2(pixel) + 0.5f,
-                                                        {view.settings.width, view.settings.height});
-                              const auto hit = view.accel.intersect(ray, 0);
-                              return hit ? std::optional(hit->t) : std::nullopt;
-                            })
-                            .get();
-  if (distance) pose_.focus = *distance;
 }
 
 void Viewer::followSize() {
@@ -347,7 +280,8 @@ void Viewer::applyEdits() {
 }
 
 bool Viewer::overlayWanted() const {
-  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick;
+  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick ||
+         state_.overlay.slice.axis != SliceAxis::kNone;
 }
 
 bool Viewer::overlayIsCurrent() const {
@@ -376,90 +310,18 @@ void Viewer::refreshOverlay() {
   overlays_.wait();
 }
 
-void Viewer::showOverlay() {
-  const bool sameColours =
-      overlayState_.overlay.opacity == state_.overlay.opacity && overlayState_.overlay.scale == state_.overlay.scale;
-  if (!overlay_) {
-    view_.clearOverlay();
-    return;
-  }
-  if (overlayDrawn_ && sameColours) return;
-  overlayState_.overlay.opacity = state_.overlay.opacity;
-  overlayState_.overlay.scale = state_.overlay.scale;
-  overlayDrawn_ = true;
-  ImageRgba8 shown;
-  if (!overlay_->values.empty()) {
-    shown = colorize(overlay_->values, ColorScale(overlay_->values, state_.overlay.scale), state_.overlay.opacity);
-  }
-  if (shown.empty()) {
-    shown = overlay_->lines;
-  } else if (!overlay_->lines.empty()) {
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-      if (overlay_->lines[i].w > 0) shown[i] = overlay_->lines[i];
-    }
-  }
-  if (shown.empty()) {
-    view_.clearOverlay();
-  } else {
-    view_.setOverlay(shown);
-  }
-}
-
-void Viewer::drawOverPicture() {
-  ImDrawList* list = ImGui::GetBackgroundDrawList();
-  if (overlay_ && overlay_->overlay != Overlay::kNone && !overlay_->values.empty()) {
-    drawLegend(*overlay_, state_.overlay, area_, gui_.scale());
-  }
-  drawHoveredCluster();
-  if (state_.pick) {
-    const Vec2 at = placement_.toFramebuffer(Vec2(*state_.pick) + 0.5f);
-    const float r = 6 * gui_.scale();
-    list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_BLACK, 0, 3);
-    list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_WHITE, 0, 1.5f);
-  }
-  if (stored_ && !flip_) {
-    const float x =
-        placement_.origin.x + placement_.scale * static_cast<float>(snapshot_->width) * state_.display.split;
-    const float height = placement_.scale * static_cast<float>(snapshot_->height);
-    list->AddLine(ImVec2(x, placement_.origin.y), ImVec2(x, placement_.origin.y + height),
-                  IM_COL32(255, 255, 255, 160));
-  }
-}
-
-void Viewer::drawHoveredCluster() {
-  if (!state_.hoveredCluster || !overlay_ || !overlay_->inspection) return;
-  const std::vector<ClusterRow>& rows = overlay_->inspection->clusters;
-  if (*state_.hoveredCluster >= rows.size()) return;
-  const Bounds& box = rows[*state_.hoveredCluster].cluster.box;
-  if (box.empty()) return;
-  const Camera& camera = viewOf(*scene_, state_.settings);
-  const glm::ivec2 size(snapshot_->width, snapshot_->height);
-  const auto project = [&](unsigned corner) -> std::optional<ImVec2> {
-    const Vec3 p((corner & 1 ? box.upper : box.lower).x, (corner & 2 ? box.upper : box.lower).y,
-                 (corner & 4 ? box.upper : box.lower).z);
-    const std::optional<Vec2> film = projectToFilm(camera, p, size);
-    if (!film) return std::nullopt;
-    const Vec2 at = placement_.toFramebuffer(*film);
-    return ImVec2(at.x, at.y);
-  };
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    for (const unsigned axis : {1u, 2u, 4u}) {
-      if (corner & axis) continue;
-      const std::optional<ImVec2> a = project(corner), b = project(corner | axis);
-      if (a && b) ImGui::GetBackgroundDrawList()->AddLine(*a, *b, IM_COL32(255, 255, 255, 230), 2 * gui_.scale());
-    }
-  }
-}
-
 void Viewer::save() {
+  if (saving_.valid()) return;  // one at a time
   const std::filesystem::path stem = options_.saveFolder / ("cellcut-" + timeStamp());
   const std::vector<std::byte> png = encodePng(framebuffer_->read());
   writeFileAtomically(stem.string() + ".png", png);
-  // The layers are the session's to make: asked for here, once.
-  LayeredImage layers = session_.inspect([](const SessionView& view) { return view.film.layers(); }).get();
-  layers.metadata["software"] = "cellcut";
-  writeExr(stem.string() + ".exr", layers);
-  problem_ = "saved " + stem.string() + ".png and .exr";
+  // The layers are the session's to make; compressing them takes as long as a pass.
+  saving_ = std::async(std::launch::async, [stem = stem.string(), made = overlays_.layers(session_)]() mutable {
+    LayeredImage layers = made.get();
+    layers.metadata["software"] = "cellcut";
+    writeExr(stem + ".exr", layers);
+    return "saved " + stem + ".png and .exr";
+  });
 }
 
 }  // namespace cellcut

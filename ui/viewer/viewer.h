@@ -10,6 +10,7 @@
 #include "ui/image_view.h"
 #include "ui/viewer/overlay_source.h"
 #include "ui/viewer/panels.h"
+#include "ui/viewer/script_recorder.h"
 #include "ui/viewer/viewer_state.h"
 #include "ui/viewer/widgets.h"
 #include "ui/window.h"
@@ -31,6 +32,7 @@ struct ViewerOptions {
   std::filesystem::path file;                         ///< of the scene, for F5
   std::filesystem::path saveFolder = ".";             ///< of F12
   std::shared_ptr<const ImageRgb> reference;          ///< for the overlay `error`; may be null
+  std::optional<std::filesystem::path> record;        ///< what the person does is written there as a script
   std::optional<std::uint64_t> sizeSettleFrames = 3;  ///< frames of one size before the rendering follows the window
 };
 
@@ -52,6 +54,8 @@ class Viewer {
   void open(const std::filesystem::path& file);
 
   const Widgets& widgets() const { return shown_; }
+  /// Scrolls a panel to the widget of that label, in the next frame.
+  void reveal(std::string label) { reveal_ = std::move(label); }
   ViewerState& state() { return state_; }
   RenderSession& session() { return session_; }
   const OverlayPicture* overlay() const { return overlay_ ? &*overlay_ : nullptr; }
@@ -70,12 +74,16 @@ class Viewer {
     bool active = false;
     bool moved = false;  ///< farther than a click
     Vec2 start{0};
+    Vec2 last{0};  ///< up to where the camera has followed
   };
   void takeNews();
   void takeScene();
   void drawPanels();
   ViewerCommand readKeys(double seconds);
   void readMouse();
+  void record(std::vector<std::string> words);
+  void recordKeys();
+  void recordFrame();
   void run(ViewerCommand command);
   void fly(double seconds);
   void setPose(const CameraPose& pose);
@@ -88,7 +96,10 @@ class Viewer {
   void requestOverlay();
   void showOverlay();
   void drawOverPicture();
-  void drawHoveredCluster();
+  std::optional<Vec2> whereSeen(const Vec3& p) const;
+  void drawCluster(std::size_t row, unsigned color) const;
+  void pointAtCluster();
+  void showLights(bool solo);
   void save();
   void guarded(const std::function<void()>& action);
 
@@ -102,12 +113,15 @@ class Viewer {
   bool edited_ = true;
   CameraPose pose_;
   Drag drags_[kMouseButtonCount];
-  bool flying_ = false, flip_ = false;
+  bool flying_ = false, wasFlying_ = false, flip_ = false;
+  std::unique_ptr<ScriptRecorder> recorder_;  ///< null unless a script is being recorded
+  PixelSize recordedSize_;
 
   Gui gui_;
   ImageView view_;
   std::unique_ptr<GlFramebuffer> framebuffer_;
   Widgets shown_;
+  std::string reveal_;
   PixelRect area_;
   ImagePlacement placement_;
   PixelSize wantedSize_;
@@ -119,9 +133,12 @@ class Viewer {
   ViewerState overlayState_;         ///< what the newest request asked for
   std::uint64_t overlayPasses_ = 0;  ///< of the snapshot at that request
   bool overlayDrawn_ = false;
+  std::optional<std::size_t> pointedBefore_;
+  bool pointing_ = false;  ///< at another cluster than a frame ago: its row is drawn in the next one
   std::string problem_;
   std::future<std::shared_ptr<const Scene>> loading_;
   std::filesystem::path loadingFile_;
+  std::future<std::string> saving_;  ///< what to say then
   OverlaySource overlays_;
   RenderSession session_;  ///< last: its threads stop before anything that they call goes
 };

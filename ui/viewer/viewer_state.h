@@ -6,6 +6,7 @@
 #include "ui/image_view.h"
 #include "ui/overlays/color_scale.h"
 #include "ui/overlays/overlay.h"
+#include "ui/overlays/slice.h"
 #include "ui/viewer/camera_control.h"
 
 #include <optional>
@@ -17,6 +18,7 @@ struct OverlayChoice {
   ScaleSettings scale;
   float opacity = 0.7f;  ///< [0, 1]
   bool grid = false;     ///< wireframe of the touched cells
+  Slice slice;           ///< overlays of cells are drawn on it
 
   bool operator==(const OverlayChoice&) const = default;
 };
@@ -29,8 +31,10 @@ struct ViewerState {
   bool paused = false;
   ImageViewSettings display;
   OverlayChoice overlay;
-  std::optional<glm::ivec2> pick;             ///< image pixel whose cell is inspected
-  std::optional<std::size_t> hoveredCluster;  ///< row of the inspector under the pointer
+  std::optional<glm::ivec2> pick;              ///< image pixel whose cell is inspected
+  std::optional<std::size_t> hoveredCluster;   ///< row of the inspector, or box in the picture, under the pointer
+  std::optional<std::size_t> selectedCluster;  ///< row that was clicked
+  int selectedLight = 0;                       ///< of the selected cluster, from 1; 0: all of them
   bool showUi = true;
   bool showHelp = false;
 };

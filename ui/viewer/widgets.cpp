@@ -1,5 +1,7 @@
 #include "ui/viewer/widgets.h"
 
+#include "ui/viewer/script_recorder.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -44,23 +46,42 @@ const WidgetItem* Widgets::find(std::string_view label) const {
   return found == items_.end() ? nullptr : &*found;
 }
 
+const WidgetItem* Widgets::findOption(std::string_view name) const {
+  const auto found = std::find_if(items_.begin(), items_.end(), [&](const WidgetItem& item) {
+    return item.kind == WidgetItem::Kind::kOption && sameText(item.label, name);
+  });
+  return found == items_.end() ? nullptr : &*found;
+}
+
 void Widgets::remember(WidgetItem::Kind kind, const char* label, std::string value) {
   const ImVec2 lower = ImGui::GetItemRectMin(), upper = ImGui::GetItemRectMax();
-  items_.push_back({kind, label, std::move(value), {lower.x, lower.y}, {upper.x, upper.y}});
+  const float middle = 0.5f * (lower.y + upper.y), top = ImGui::GetWindowPos().y;
+  const bool visible = middle >= top && middle < top + ImGui::GetWindowHeight();
+  items_.push_back({kind, label, std::move(value), {lower.x, lower.y}, {upper.x, upper.y}, visible});
+  if (!reveal_.empty() && sameText(reveal_, label)) ImGui::SetScrollHereY(0.5f);
+}
+
+bool Widgets::section(const char* title) {
+  const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+  remember(WidgetItem::Kind::kButton, title, open ? "open" : "closed");
+  if (ImGui::IsItemToggledOpen()) changed(title, std::nullopt);
+  return open;
 }
 
 bool Widgets::button(const char* label, const char* tooltip) {
   const bool pressed = ImGui::Button(label);
   remember(WidgetItem::Kind::kButton, label, "");
   explain(tooltip);
+  if (pressed) changed(label, std::nullopt);
   return pressed;
 }
 
 bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
-  const bool changed = ImGui::Checkbox(label, &value);
+  const bool edited = ImGui::Checkbox(label, &value);
   remember(WidgetItem::Kind::kCheckbox, label, value ? "on" : "off");
   explain(tooltip);
-  return changed;
+  if (edited) changed(label, value ? "on" : "off");
+  return edited;
 }
 
 bool Widgets::slider(const char* label, float& value, float least, float most, const char* tooltip, bool logarithmic) {
@@ -68,32 +89,35 @@ bool Widgets::slider(const char* label, float& value, float least, float most, c
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp |
       (logarithmic ? static_cast<int>(ImGuiSliderFlags_Logarithmic) | ImGuiSliderFlags_NoRoundToFormat : 0);
-  const bool changed =
+  const bool edited =
       ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, logarithmic ? "%.2g" : "%.2f", flags);
   remember(WidgetItem::Kind::kNumber, label, shown(static_cast<double>(value)));
   explain(tooltip);
-  return changed;
+  if (edited) changed(label, exactNumber(value));
+  return edited;
 }
 
 bool Widgets::slider(const char* label, int& value, int least, int most, const char* tooltip, bool logarithmic) {
   nameOfField(label);
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? static_cast<int>(ImGuiSliderFlags_Logarithmic) : 0);
-  const bool changed = ImGui::SliderInt(hidden(label).c_str(), &value, least, most, "%d", flags);
+  const bool edited = ImGui::SliderInt(hidden(label).c_str(), &value, least, most, "%d", flags);
   remember(WidgetItem::Kind::kNumber, label, std::to_string(value));
   explain(tooltip);
-  return changed;
+  if (edited) changed(label, std::to_string(value));
+  return edited;
 }
 
 bool Widgets::number(const char* label, double& value, const char* tooltip) {
   nameOfField(label);
-  double edited = value;
-  const bool changed = ImGui::InputDouble(hidden(label).c_str(), &edited, 0, 0, edited == 0 ? "none" : "%g",
-                                          ImGuiInputTextFlags_EnterReturnsTrue);
-  if (changed && edited >= 0) value = edited;
+  double entered = value;
+  const bool edited = ImGui::InputDouble(hidden(label).c_str(), &entered, 0, 0, entered == 0 ? "none" : "%g",
+                                         ImGuiInputTextFlags_EnterReturnsTrue);
+  if (edited && entered >= 0) value = entered;
   remember(WidgetItem::Kind::kNumber, label, shown(value));
   explain(tooltip);
-  return changed;
+  if (edited) changed(label, exactNumber(value));
+  return edited;
 }
 
 bool Widgets::choice(const char* label, int& index, std::span<const std::string_view> names, const char* tooltip) {
@@ -103,22 +127,31 @@ bool Widgets::choice(const char* label, int& index, std::span<const std::string_
   remember(WidgetItem::Kind::kChoice, label, current);
   explain(open ? nullptr : tooltip);
   if (!open) return false;
-  bool changed = false;
+  bool edited = false;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name(names[i]);
     if (ImGui::Selectable(name.c_str(), static_cast<int>(i) == index)) {
-      changed = static_cast<int>(i) != index;
+      edited = static_cast<int>(i) != index;
       index = static_cast<int>(i);
+      changed(label, name);
     }
     remember(WidgetItem::Kind::kOption, name.c_str(), "");
   }
   ImGui::EndCombo();
-  return changed;
+  return edited;
+}
+
+bool Widgets::row(const char* label, const char* shown, bool selected) {
+  const std::string id = std::string(shown) + "###" + label;
+  const bool clicked = ImGui::Selectable(id.c_str(), selected, ImGuiSelectableFlags_SpanAllColumns);
+  remember(WidgetItem::Kind::kButton, label, selected ? "on" : "off");
+  if (clicked) changed(label, std::nullopt);
+  return clicked;
 }
 
 void Widgets::text(const char* label, const std::string& value, const char* tooltip) {
   nameOfField(label);
-  ImGui::TextUnformatted(value.c_str());
+  ImGui::TextWrapped("%s", value.c_str());
   remember(WidgetItem::Kind::kText, label, value);
   explain(tooltip);
 }

@@ -1,0 +1,105 @@
+#include "renderer/trace/light_mask.h"
+#include "ui/viewer/panel_parts.h"
+#include "ui/viewer/panels.h"
+
+namespace cellcut {
+namespace {
+
+bool hasCuts(Strategy strategy) {
+  return strategy == Strategy::kCellCut || strategy == Strategy::kPointCut;
+}
+
+void drawSamplerSettings(Widgets& widgets, ViewerState& state) {
+  SamplerSettings& s = state.settings.sampler;
+  std::array<std::string_view, kQualities.size() + 1> qualities;
+  for (std::size_t i = 0; i < kQualities.size(); ++i) qualities[i] = kQualities[i].name;
+  qualities.back() = "custom";
+  int quality = static_cast<int>(qualityOf(s).value_or(kQualities.size()));
+  if (widgets.choice("Quality", quality, qualities,
+                     "Presets of the four settings below: what they trade is time per pass against noise per sample") &&
+      quality < static_cast<int>(kQualities.size())) {
+    const auto [memory, visits] = std::pair(s.cellMemory, s.countVisits);
+    s = kQualities[static_cast<std::size_t>(quality)].settings;
+    s.cellMemory = memory;
+    s.countVisits = visits;
+  }
+  widgets.slider("Max cut", s.maxCut, 2, kMaxCutSize,
+                 "Most clusters of a cut. More: less noise, cells that take longer to make", true);
+  widgets.slider("Threshold", s.threshold, 0.0f, 0.1f,
+                 "Clusters above this share of a cut's estimate are split. Lower: longer cuts, less noise", true);
+  if (state.settings.strategy == Strategy::kCellCut) {
+    widgets.slider("Grid", s.gridResolution, 1, 256,
+                   "Cells along the longest axis of what is seen. More: better estimates, more cells to make", true);
+  }
+  static constexpr std::array<std::string_view, 2> kInCluster{"intensity", "descent"};
+  chooseEnum(
+      widgets, "In cluster", s.inCluster, kInCluster,
+      "How a light is chosen inside a cluster: by intensity (faster), or down the tree by importance (less noise)");
+}
+
+template <class T>
+void limitField(Widgets& widgets, const char* label, std::optional<T>& limit, const char* tooltip) {
+  double value = limit ? static_cast<double>(*limit) : 0;
+  if (!widgets.number(label, value, tooltip)) return;
+  limit = value > 0 ? std::optional(static_cast<T>(value)) : std::nullopt;
+}
+
+/// A share of the work until the nearest limit, and how long it still takes.
+std::string remaining(const ViewerState& state, const Snapshot& s) {
+  if (s.passes == 0 || s.seconds <= 0) return "";
+  double least = std::numeric_limits<double>::infinity();
+  const double perPass = s.seconds / static_cast<double>(s.passes);
+  if (state.passLimit) {
+    least = perPass * (static_cast<double>(*state.passLimit) - static_cast<double>(s.passes));
+  }
+  if (state.timeLimit) least = std::min(least, *state.timeLimit - s.seconds);
+  if (state.noiseLimit && std::isfinite(s.relativeError)) {
+    const double ratio = s.relativeError / *state.noiseLimit;
+    least = std::min(least, s.seconds * (ratio * ratio - 1));
+  }
+  if (!std::isfinite(least)) return "";
+  return least <= 0 ? "done" : formatted("about %.0f s left", least);
+}
+
+}  // namespace
+
+std::optional<std::size_t> qualityOf(const SamplerSettings& s) {
+  for (std::size_t i = 0; i < kQualities.size(); ++i) {
+    const SamplerSettings& q = kQualities[i].settings;
+    if (q.maxCut == s.maxCut && q.threshold == s.threshold && q.gridResolution == s.gridResolution &&
+        q.inCluster == s.inCluster) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
+  ViewerCommand command = ViewerCommand::kNone;
+  if (!widgets.section("Render")) return command;
+  RenderSettings& s = state.settings;
+  static constexpr auto kNames = namesOf(kStrategies);
+  const std::string_view about = kStrategies[static_cast<std::size_t>(s.strategy)].description;
+  chooseEnum(widgets, "Strategy", s.strategy, kNames, about.data());
+  if (hasCuts(s.strategy)) drawSamplerSettings(widgets, state);
+  widgets.slider("Max depth", s.maxDepth, 0, 32, "Times a path may scatter: 0 emitters only, 1 direct light only");
+  if (s.shownLights) {
+    const std::vector<bool>& shown = s.shownLights->shown();
+    widgets.text("Lights", formatted("%zd of %zu", std::count(shown.begin(), shown.end(), true), shown.size()),
+                 "Solo and mute of the inspector; what is seen of the others directly stays");
+    if (widgets.button("All lights", "Show every light again (N)")) command = ViewerCommand::kAllLights;
+  }
+  int seed = static_cast<int>(s.seed);
+  if (widgets.slider("Seed", seed, 0, 99, "Another seed, another noise")) s.seed = static_cast<std::uint64_t>(seed);
+  limitField(widgets, "Stop at spp", state.passLimit, "Samples per pixel after which rendering rests");
+  limitField(widgets, "Stop at s", state.timeLimit, "Seconds after which rendering rests");
+  limitField(widgets, "Stop at REL", state.noiseLimit, "Estimated relative error (root of relMSE) at which it rests");
+  widgets.checkbox("Pause", state.paused, "P");
+  ImGui::SameLine();
+  if (widgets.button("Step", "One pass of a paused rendering (.)")) command = ViewerCommand::kSingleStep;
+  ImGui::SameLine();
+  ImGui::TextUnformatted(remaining(state, facts.snapshot).c_str());
+  return command;
+}
+
+}  // namespace cellcut

@@ -1,0 +1,194 @@
+/// What a person's keys and mouse do to the picture, and how it is written down.
+#include "renderer/scene/camera.h"
+#include "ui/viewer/viewer.h"
+
+#include <array>
+
+#include <imgui.h>
+
+namespace cellcut {
+namespace {
+
+/// Pixels that a pointer may move between press and release of a click.
+constexpr float kClickSlack = 3;
+/// Radians per framebuffer height that a drag turns the camera.
+constexpr float kTurnPerHeight = 3;
+/// Shares of the focus distance that flying covers in a second.
+constexpr float kFlySpeed = 0.7f;
+
+Vec2 mousePosition() {
+  return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y};
+}
+
+/// Share of the grid that [ and ] move the slice by: less than a layer of the default 16 cells.
+constexpr float kSliceStep = 0.05f;
+
+/// In the order of MouseButton and of ImGui.
+constexpr std::array<const char*, kMouseButtonCount> kButtons{"left", "right", "middle"};
+/// Space flies too.
+constexpr std::string_view kFlightKeys = "WASDQEC";
+
+bool isFunctionKey(Key key) {
+  return key >= Key::kF1 && key <= Key::kF12;
+}
+bool isModifier(Key key) {
+  return key >= Key::kLeftShift;
+}
+
+}  // namespace
+
+ViewerCommand Viewer::readKeys(double seconds) {
+  flip_ = false;
+  flying_ = false;
+  if (gui_.keyPressed(Key::kF1)) state_.showHelp = !state_.showHelp;
+  if (gui_.keyPressed(Key::kF2)) state_.showUi = !state_.showUi;
+  if (gui_.keyPressed(Key::kF5)) return ViewerCommand::kReload;
+  if (gui_.keyPressed(Key::kF12)) return ViewerCommand::kSave;
+  if (gui_.wantsKeyboard()) return ViewerCommand::kNone;
+  if (gui_.controlDown()) {
+    if (gui_.keyPressed(Key::kC)) return ViewerCommand::kCopyCamera;
+    return gui_.keyPressed(Key::kV) ? ViewerCommand::kPasteCamera : ViewerCommand::kNone;
+  }
+  fly(seconds);
+  flip_ = gui_.keyDown(Key::kB);
+  for (std::size_t i = 0; i < kStrategies.size(); ++i) {
+    if (gui_.keyPressed(static_cast<Key>(static_cast<int>(Key::k1) + static_cast<int>(i)))) {
+      state_.settings.strategy = kStrategies[i].strategy;
+    }
+  }
+  if (gui_.keyPressed(Key::kO)) {
+    const auto count = static_cast<int>(kOverlays.size());
+    const int step = gui_.shiftDown() ? count - 1 : 1;
+    state_.overlay.overlay = static_cast<Overlay>((static_cast<int>(state_.overlay.overlay) + step) % count);
+  }
+  if (gui_.keyPressed(Key::kG)) state_.overlay.grid = !state_.overlay.grid;
+  if (gui_.keyPressed(Key::kK)) {
+    state_.overlay.slice.axis = static_cast<SliceAxis>((static_cast<int>(state_.overlay.slice.axis) + 1) % 4);
+  }
+  const float step = static_cast<float>(gui_.keyPressed(Key::kRightBracket, true)) -
+                     static_cast<float>(gui_.keyPressed(Key::kLeftBracket, true));
+  if (step != 0)
+    state_.overlay.slice.position = std::clamp(state_.overlay.slice.position + kSliceStep * step, 0.0f, 1.0f);
+  if (gui_.keyPressed(Key::kX) && state_.hoveredCluster) {
+    state_.selectedCluster = state_.hoveredCluster;
+    state_.selectedLight = 0;
+  }
+  if (gui_.keyPressed(Key::kL)) return ViewerCommand::kSolo;
+  if (gui_.keyPressed(Key::kM)) return ViewerCommand::kMute;
+  if (gui_.keyPressed(Key::kN)) return ViewerCommand::kAllLights;
+  if (gui_.keyPressed(Key::kP)) state_.paused = !state_.paused;
+  if (gui_.keyPressed(Key::kEqual, true) || gui_.keyPressed(Key::kKeypadAdd, true)) state_.display.exposure += 0.25f;
+  if (gui_.keyPressed(Key::kMinus, true) || gui_.keyPressed(Key::kKeypadSubtract, true))
+    state_.display.exposure -= 0.25f;
+  if (gui_.keyPressed(Key::kEscape)) return ViewerCommand::kUnpick;
+  if (gui_.keyPressed(Key::kPeriod)) return ViewerCommand::kSingleStep;
+  if (gui_.keyPressed(Key::kT)) return ViewerCommand::kStore;
+  if (gui_.keyPressed(Key::kF)) focusAt(mousePosition());
+  return gui_.keyPressed(Key::kR) ? ViewerCommand::kResetCamera : ViewerCommand::kNone;
+}
+
+CameraPose Viewer::pose() const {
+  return {viewOf(*scene_, state_.settings), pose_.focus};
+}
+
+void Viewer::setPose(const CameraPose& pose) {
+  pose_ = pose;
+  state_.settings.view = pose.camera;
+}
+
+void Viewer::fly(double seconds) {
+  const auto axis = [&](Key plus, Key minus) {
+    return static_cast<float>(gui_.keyDown(plus)) - static_cast<float>(gui_.keyDown(minus));
+  };
+  const Vec3 along(axis(Key::kD, Key::kA), axis(Key::kE, Key::kQ) + axis(Key::kSpace, Key::kC), axis(Key::kW, Key::kS));
+  if (along == Vec3(0)) return;
+  flying_ = true;
+  const float speed = kFlySpeed * pose_.focus * (gui_.shiftDown() ? 10.0f : 1.0f);
+  // A long frame is no reason to leave the building.
+  setPose(flown(pose(), along * speed * static_cast<float>(std::min(seconds, 0.1))));
+}
+
+void Viewer::record(std::vector<std::string> words) {
+  if (recorder_) recorder_->write(std::move(words));
+}
+
+void Viewer::recordKeys() {
+  if (!recorder_) return;
+  for (int i = 0; i < kKeyCount; ++i) {
+    const auto key = static_cast<Key>(i);
+    if (!gui_.keyPressed(key) || (gui_.wantsKeyboard() && !isFunctionKey(key)) || isModifier(key)) continue;
+    const bool control = gui_.controlDown();
+    if (!control && kFlightKeys.find(keyName(key)) != std::string_view::npos && keyName(key).size() == 1) continue;
+    if (key == Key::kSpace || (control && key == Key::kV)) continue;  // view() says what came of them
+    if ((key == Key::kF || key == Key::kX) && !control) {             // mean what is under the pointer
+      recorder_->beforePosition(!state_.paused);
+      record({"move", exactNumber(mousePosition().x), exactNumber(mousePosition().y)});
+    }
+    const std::string name = (control ? "Ctrl+" : "") + std::string(gui_.shiftDown() ? "Shift+" : "");
+    record({"key", name + std::string(keyName(key))});
+    if (key == Key::kF5) recorder_->pictureChanges();
+  }
+}
+
+void Viewer::recordFrame() {
+  if (!recorder_) return;
+  recorder_->edits(shown_.edits());
+  const bool landed = wasFlying_ && !flying_;
+  if (landed) recorder_->view(pose());
+  wasFlying_ = flying_;
+}
+
+void Viewer::readMouse() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Vec2 position = mousePosition();
+  const bool free = !gui_.wantsMouse() && area_.contains(position);
+  if (free && io.MouseWheel != 0) {
+    setPose(dollied(pose(), io.MouseWheel));
+    record({"scroll", exactNumber(position.x), exactNumber(position.y), exactNumber(io.MouseWheel)});
+  }
+  for (int button = 0; button < kMouseButtonCount; ++button) {
+    Drag& drag = drags_[button];
+    if (ImGui::IsMouseClicked(button)) drag = {free, false, position, position};
+    if (!drag.active) continue;
+    if (glm::length(position - drag.start) > kClickSlack) drag.moved = true;
+    // From where it began, so that a drag turns as far however many events it came in.
+    const Vec2 share = (position - drag.last) / area_.size.y;
+    if (drag.moved && share != Vec2(0)) {
+      drag.last = position;
+      if (button == ImGuiMouseButton_Left) setPose(orbited(pose(), kTurnPerHeight * share));
+      if (button == ImGuiMouseButton_Right) setPose(turned(pose(), kTurnPerHeight * share));
+      if (button == ImGuiMouseButton_Middle) setPose(panned(pose(), share));
+    }
+    if (ImGui::IsMouseDown(button)) continue;
+    if (drag.moved) {
+      record({"drag", kButtons[button], exactNumber(drag.start.x), exactNumber(drag.start.y), exactNumber(position.x),
+              exactNumber(position.y)});
+    } else if (button == ImGuiMouseButton_Left) {
+      const std::optional<glm::ivec2> pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
+      if (pixel) {
+        if (state_.pick != pixel) state_.selectedCluster.reset();
+        state_.pick = pixel;
+        if (recorder_) recorder_->beforePosition(!state_.paused);
+        record({"pick", std::to_string(pixel->x), std::to_string(pixel->y)});
+      }
+    }
+    drag.active = false;
+  }
+}
+
+void Viewer::focusAt(const Vec2& position) {
+  const auto pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
+  if (!pixel) return;
+  // One ray: the session answers within a pass.
+  const auto distance = session_
+                            .inspect([pixel = *pixel](const SessionView& view) {
+                              const Ray ray = cameraRay(viewOf(view.scene, view.settings), Vec2(pixel) + 0.5f,
+                                                        {view.settings.width, view.settings.height});
+                              const auto hit = view.accel.intersect(ray, 0);
+                              return hit ? std::optional(hit->t) : std::nullopt;
+                            })
+                            .get();
+  if (distance) pose_.focus = *distance;
+}
+
+}  // namespace cellcut
