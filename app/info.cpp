@@ -1,6 +1,7 @@
 /// The verb `info`: what is in a scene, as JSON.
 #include "app/command_line.h"
 #include "app/report.h"
+#include "app/options.h"
 #include "app/verbs.h"
 #include "renderer/lights/light_bounds.h"
 #include "renderer/scene/load_scene.h"
@@ -95,8 +96,13 @@ Json describe(const Scene& scene) {
   return info;
 }
 
-int showInfo(const std::string& file, const Console& console) {
-  console.out << describe(loadScene(file)).dump(2) << '\n';
+struct InfoOptions {
+  std::string scene;
+  LoadOptions load;
+};
+
+int showInfo(const InfoOptions& options, const Console& console) {
+  console.out << describe(loadScene(options.scene, options.load)).dump(2) << '\n';
   return kDone;
 }
 
@@ -104,10 +110,11 @@ int showInfo(const std::string& file, const Console& console) {
 
 Verb addInfo(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("info", "Print what is in a scene");
-  const auto file = std::make_shared<std::string>();
-  verb->add_option("SCENE", *file, "Scene: .gltf, .glb or .obj")->required()->type_name("");
+  const auto options = std::make_shared<InfoOptions>();
+  verb->add_option("SCENE", options->scene, "Scene: .gltf, .glb or .obj")->required()->type_name("");
+  addLoadLimits(*verb, options->load.limits);
   verb->footer(kExamples);
-  return {verb, [file](const Console& console) { return showInfo(*file, console); }};
+  return {verb, [options](const Console& console) { return showInfo(*options, console); }};
 }
 
 }  // namespace cellcut

@@ -131,6 +131,23 @@ void addCuts(CLI::App& verb, SamplerSettings& s) {
           "Kept cuts; beyond it the same are found again, slower (default " + std::to_string(s.cellMemory >> 20) + ")");
 }
 
+}  // namespace
+
+void addLoadLimits(CLI::App& verb, LoadLimits& limits) {
+  addText(
+      verb, "--max-triangles", "N",
+      [&limits](const std::string& t) {
+        limits.maxTriangles = parseWhole("--max-triangles", t, {.most = kMostTriangles});
+      },
+      "Refuse scenes with more, instances written out (default " + std::to_string(limits.maxTriangles) + ")");
+  addText(
+      verb, "--max-texture-bytes", "N",
+      [&limits](const std::string& t) { limits.maxTextureBytes = parseWhole("--max-texture-bytes", t, {}); },
+      "Refuse scenes with more in their pictures, decoded (default " + std::to_string(limits.maxTextureBytes) + ")");
+}
+
+namespace {
+
 void addView(CLI::App& verb, RenderOptions& o) {
   addText(
       verb, "--camera", "NAME|INDEX", [&o](const std::string& t) { o.camera = t; },
@@ -149,6 +166,7 @@ void addView(CLI::App& verb, RenderOptions& o) {
       verb, "--punctual-scale", "X|blender",
       [&o](const std::string& t) { o.load.punctualScale = parsePunctualScale(t); },
       "Multiplies point, spot and directional lights; see below");
+  addLoadLimits(verb, o.load.limits);
 }
 
 std::string describeCameras(const Scene& scene) {

@@ -38,7 +38,8 @@ inline constexpr int kMaxPictureSide = 16384;                 // as kMaxImagePix
 inline constexpr std::uint64_t kMaxCellMegabytes = 1u << 20;  // a terabyte: more is a typing error
 inline constexpr int kMaxDepthLimit = 10000;  // far past where a path in a closed white room still carries light
 inline constexpr int kMaxThreads = 1024;      // more is a typing error
-inline constexpr std::uint64_t kMaxPasses = 1u << 30;  // film sums are proved right to 10⁸
+inline constexpr std::uint64_t kMostTriangles = 1u << 30;  // three vertices each are still counted in 32 bits
+inline constexpr std::uint64_t kMaxPasses = 1u << 30;      // film sums are proved right to 10⁸
 
 /// Declares the options of a rendering on `verb`; parsing then fills `options`, which must stay where it is until then.
 /// Parsing throws InputError for a value that cannot be used.
@@ -49,6 +50,9 @@ void addPictureOptions(CLI::App& verb, RenderOptions& options);
 
 /// The same without --strategy and without the options that say when to stop.
 void addSettingOptions(CLI::App& verb, RenderOptions& options);
+
+/// Declares --max-triangles and --max-texture-bytes.
+void addLoadLimits(CLI::App& verb, LoadLimits& limits);
 
 /// The value of an option as the options above read it. \throws InputError that names `option` and lists what is known
 Strategy parseStrategy(const std::string& option, const std::string& name);

@@ -14,7 +14,7 @@ _cellcut_words() { COMPREPLY+=($(compgen -W "$1" -- "$cur")); }
 _cellcut_strategies='uniform power proportional cell-cut point-cut light-tree'
 _cellcut_picture_options='--quality --strategy --spp --time --noise --size --max-depth --seed --threads --camera --sampler
   --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale
-  --environment-rotation --punctual-scale --help'
+  --environment-rotation --punctual-scale --max-triangles --max-texture-bytes --help'
 
 # Values of the options that say how a picture is made; fails for any other word.
 _cellcut_picture_value() {
@@ -28,6 +28,7 @@ _cellcut_picture_value() {
     --size) _cellcut_words '1280x720 1920x1080 3840x2160' ;;
     --spp | --time | --noise | --max-depth | --seed | --threads | --camera | --threshold | --max-cut) ;;
     --grid-resolution | --cell-memory | --environment-scale | --environment-rotation) ;;
+    --max-triangles | --max-texture-bytes) ;;
     *) return 1 ;;
   esac
 }
@@ -106,7 +107,7 @@ _cellcut() {
     measure) _cellcut_measure ;;
     generate) _cellcut_generate ;;
     compare) if [[ $cur == -* ]]; then _cellcut_words '--help'; else _cellcut_files 'exr|pfm|hdr'; fi ;;
-    info) if [[ $cur == -* ]]; then _cellcut_words '--help'; else _cellcut_files 'gltf|glb|obj'; fi ;;
+    info) if [[ $cur == -* ]]; then _cellcut_words '--max-triangles --max-texture-bytes --help'; else _cellcut_files 'gltf|glb|obj'; fi ;;
   esac
 }
 

@@ -46,6 +46,10 @@ ImageRgb readImage(const std::filesystem::path& file);
 /// The same from memory; the kind is known by its first bytes. `name` is used in messages only.
 ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name);
 
+/// Width and height that the header of a PNG or JPEG tells.
+/// \throws InputError as decodeImage8 does for headers
+glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& name);
+
 /// Decodes a PNG or JPEG that lies in memory. `name` is used in messages only.
 /// \throws InputError as readImage.
 ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name);

@@ -50,7 +50,7 @@ struct StbFree {
 
 }  // namespace
 
-ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name) {
+glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& name) {
   const bool png = startsWith(encoded, kPngSignature);
   if (!png && !startsWith(encoded, kJpegSignature))
     throw InputError(name, "is no PNG or JPEG picture; convert it to one");
@@ -58,13 +58,19 @@ ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& n
   if (png) checkPngChunks(encoded, name);
 
   const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.data());
-  const int size = static_cast<int>(encoded.size());
   int width = 0, height = 0, components = 0;
-  if (!stbi_info_from_memory(bytes, size, &width, &height, &components)) {
+  if (!stbi_info_from_memory(bytes, static_cast<int>(encoded.size()), &width, &height, &components)) {
     throw InputError(name, std::string("has no valid header (") + stbi_failure_reason() + ")");
   }
   checkImageSize(width, height, encoded.size(), png ? kPngPixelsPerByte : kJpegPixelsPerByte, name);
+  return {width, height};
+}
 
+ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name) {
+  imageSize8(encoded, name);  // refuses what stb should not see
+  const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.data());
+  const int size = static_cast<int>(encoded.size());
+  int width = 0, height = 0, components = 0;
   const std::unique_ptr<stbi_uc, StbFree> pixels(stbi_load_from_memory(bytes, size, &width, &height, &components, 4));
   if (!pixels) throw InputError(name, std::string("cannot be decoded (") + stbi_failure_reason() + ")");
   ImageRgba8 image(width, height);

@@ -16,7 +16,8 @@ struct EncodedImage {
 };
 
 /// decodeImage8 of each, in parallel and in order.
-/// \throws InputError of the first that cannot be decoded
-std::vector<ImageRgba8> decodeTexels(std::span<const EncodedImage> images);
+/// \param maxBytes  of all together, decoded
+/// \throws InputError of the first that cannot be decoded, or past which they are too large
+std::vector<ImageRgba8> decodeTexels(std::span<const EncodedImage> images, std::uint64_t maxBytes);
 
 }  // namespace cellcut

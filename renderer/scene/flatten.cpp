@@ -66,9 +66,9 @@ DoubleBounds draftBounds(const SceneDraft& draft) {
 void checkTriangleBudget(const SceneDraft& draft) {
   std::size_t count = 0;
   for (const PartInstance& instance : draft.instances) count += draft.parts[instance.part].triangles.size();
-  if (count > kMaxTriangles) {
-    throw InputError(draft.name, std::to_string(count) + " triangles with all instances written out; at most " +
-                                     std::to_string(kMaxTriangles) + " are supported");
+  if (count > draft.limits.maxTriangles) {
+    throw InputError(draft.name, std::to_string(count) + " triangles with all instances written out; the limit is " +
+                                     std::to_string(draft.limits.maxTriangles) + " (--max-triangles)");
   }
 }
 

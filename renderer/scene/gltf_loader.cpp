@@ -27,15 +27,15 @@ const tinygltf::Mesh* meshOf(const GltfDocument& document, const GltfNode& node)
 }
 
 /// A small file can ask for any number of triangles by instances of instances: count before anything is read.
-void checkTriangleBudget(const GltfDocument& document, const std::vector<GltfNode>& nodes) {
+void checkTriangleBudget(const GltfDocument& document, const std::vector<GltfNode>& nodes, std::size_t most) {
   std::size_t count = 0;
   for (const GltfNode& node : nodes) {
     const tinygltf::Mesh* mesh = meshOf(document, node);
     if (!mesh) continue;
     for (const tinygltf::Primitive& primitive : mesh->primitives) count += triangleCount(document, primitive);
-    if (count > kMaxTriangles) {
-      throw InputError(document.name, "more than " + std::to_string(kMaxTriangles) +
-                                          " triangles with all instances written out, which is not supported");
+    if (count > most) {
+      throw InputError(document.name, "more than " + std::to_string(most) +
+                                          " triangles with all instances written out, the limit (--max-triangles)");
     }
   }
 }
@@ -116,12 +116,13 @@ SceneDraft loadGltf(const std::filesystem::path& file, const LoadOptions& option
   const GltfDocument document = readGltf(file);
   SceneDraft draft;
   draft.name = document.name;
+  draft.limits = options.limits;
   draft.scene.generator = document.model.asset.generator;
   draft.scene.counts.meshes = document.model.meshes.size();
 
   const std::vector<GltfNode> nodes = activeNodes(document);
-  checkTriangleBudget(document, nodes);
-  readMaterials(document, draft.scene);
+  checkTriangleBudget(document, nodes, options.limits.maxTriangles);
+  readMaterials(document, options.limits.maxTextureBytes, draft.scene);
   const std::vector<UsedPrimitive> used = listPrimitives(document, nodes, draft);
   readParts(document, used, draft);
   readLights(document, nodes, options, draft);

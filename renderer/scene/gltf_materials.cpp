@@ -118,7 +118,7 @@ bool needsDefaultMaterial(const tinygltf::Model& model) {
 
 }  // namespace
 
-void readMaterials(const GltfDocument& document, Scene& scene) {
+void readMaterials(const GltfDocument& document, std::uint64_t maxTextureBytes, Scene& scene) {
   GltfTextures textures(document, scene);
   for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
     const Reader reader{document, scene, textures, placeOf(document, "materials", i)};
@@ -128,7 +128,7 @@ void readMaterials(const GltfDocument& document, Scene& scene) {
     scene.materials.emplace_back();
     scene.materials.back().name = "default";
   }
-  textures.decode();
+  textures.decode(maxTextureBytes);
 }
 
 }  // namespace cellcut

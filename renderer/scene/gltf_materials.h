@@ -12,6 +12,6 @@ namespace cellcut {
 /// \throws InputError for values without meaning
 /// (negative emission by name) and pictures that cannot be decoded. Values that are only out of range are clamped with
 /// a warning.
-void readMaterials(const GltfDocument& document, Scene& scene);
+void readMaterials(const GltfDocument& document, std::uint64_t maxTextureBytes, Scene& scene);
 
 }  // namespace cellcut

@@ -89,10 +89,10 @@ std::span<const std::byte> GltfTextures::encoded(std::size_t image) const {
   return bufferView >= 0 ? bufferViewBytes(document_.model, bufferView) : std::span(document_.images[image]);
 }
 
-void GltfTextures::decode() {
+void GltfTextures::decode(std::uint64_t maxBytes) {
   std::vector<EncodedImage> images;
   for (const std::size_t image : images_) images.push_back({placeOf(document_, "images", image), encoded(image)});
-  scene_.texels = decodeTexels(images);
+  scene_.texels = decodeTexels(images, maxBytes);
 }
 
 }  // namespace cellcut

@@ -30,8 +30,9 @@ class GltfTextures {
   TextureSlot slot(const GltfTextureInfo& info, const std::string& place);
 
   /// Decodes the pictures of all slots so far into scene.texels.
-  /// \throws InputError if one cannot be decoded
-  void decode();
+  /// \throws InputError if one cannot be decoded or they are too large
+  /// \param maxBytes  of all together
+  void decode(std::uint64_t maxBytes);
 
  private:
   std::span<const std::byte> encoded(std::size_t image) const;

@@ -22,7 +22,7 @@ std::string lowerExtension(const std::filesystem::path& file) {
 SceneDraft loadDraft(const std::filesystem::path& file, const LoadOptions& options) {
   const std::string extension = lowerExtension(file);
   if (extension == ".gltf" || extension == ".glb") return loadGltf(file, options);
-  if (extension == ".obj") return loadObj(file);
+  if (extension == ".obj") return loadObj(file, options.limits);
   throw InputError(file.string(), "is not a scene file; .gltf, .glb and .obj are read");
 }
 

@@ -2,15 +2,12 @@
 /// A scene file of any known kind → Scene.
 #pragma once
 
+#include "renderer/scene/load_options.h"
 #include "renderer/scene/scene.h"
 
 #include <filesystem>
 
 namespace cellcut {
-
-struct LoadOptions {
-  double punctualScale = 1;  ///< multiplies point, spot and directional lights; 1/683 undoes Blender's lm/W
-};
 
 /// Loads .gltf, .glb or .obj by the file's extension (any case).
 /// \throws InputError naming file, place and remedy; nothing else. Bounded: a file that lies about its sizes is refused

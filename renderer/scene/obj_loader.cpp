@@ -127,7 +127,10 @@ void ObjReader::addFace(std::span<const tinyobj::index_t> indices) {
     if (!hasNormals) corner.normal = kNone;
   }
   triangles_ += corners.size() - 2;
-  if (triangles_ > kMaxTriangles) throw InputError(draft_.name, "has too many triangles");
+  if (triangles_ > draft_.limits.maxTriangles) {
+    throw InputError(draft_.name, "has more than " + std::to_string(draft_.limits.maxTriangles) +
+                                      " triangles, the limit (--max-triangles)");
+  }
   PartBuilder& part = parts_[{current_, hasNormals, hasTexCoords}];
   for (const auto& [a, b, c] : triangulate(polygon)) {
     const std::uint32_t first = part.vertex(corners[a]), second = part.vertex(corners[b]),
@@ -149,7 +152,8 @@ void ObjReader::readLibrary(std::string reference) {
     warnOnce(draft_.scene, "material library " + reference.substr(0, 80) + " is missing");
     return;
   }
-  materials_.merge(readMtl(folder_, folder_.read(reference), file.filename().string(), draft_.scene));
+  materials_.merge(
+      readMtl(folder_, folder_.read(reference), file.filename().string(), draft_.limits.maxTextureBytes, draft_.scene));
 }
 
 MaterialId ObjReader::materialOrDefault(std::optional<MaterialId> id) {
@@ -218,9 +222,10 @@ class LibraryHook : public tinyobj::MaterialReader {
 
 }  // namespace
 
-SceneDraft loadObj(const std::filesystem::path& file) {
+SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits) {
   SceneDraft draft;
   draft.name = file.filename().string();
+  draft.limits = limits;
   ObjReader reader(file, draft);
   std::vector<std::byte> bytes = readFile(file, kMaxSceneFileBytes);
 

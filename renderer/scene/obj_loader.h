@@ -13,6 +13,6 @@ namespace cellcut {
 
 /// A material library or picture that is missing is a warning; a reference out of the folder is refused.
 /// \throws InputError for everything else that is wrong with the file
-SceneDraft loadObj(const std::filesystem::path& file);
+SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits);
 
 }  // namespace cellcut

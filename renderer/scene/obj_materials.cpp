@@ -39,10 +39,12 @@ class Pictures {
     return slot;
   }
 
-  void decode() {
+  /// \param maxBytes  of all texels of the scene
+  void decode(std::uint64_t maxBytes) {
+    for (const ImageRgba8& before : scene_.texels) maxBytes -= std::min<std::uint64_t>(maxBytes, before.bytes());
     std::vector<EncodedImage> encoded;
     for (std::size_t i = 0; i < files_.size(); ++i) encoded.push_back({names_[i], files_[i]});
-    std::vector<ImageRgba8> texels = decodeTexels(encoded);
+    std::vector<ImageRgba8> texels = decodeTexels(encoded, maxBytes);
     std::move(texels.begin(), texels.end(), std::back_inserter(scene_.texels));
   }
 
@@ -103,7 +105,7 @@ ByteStream::ByteStream(std::vector<std::byte>& bytes) : std::istream(static_cast
 }
 
 std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector<std::byte> bytes,
-                                          const std::string& name, Scene& scene) {
+                                          const std::string& name, std::uint64_t maxTextureBytes, Scene& scene) {
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
@@ -116,7 +118,7 @@ std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector
   for (const tinyobj::material_t& source : materials) {
     scene.materials.push_back(materialOf(source, name + ": " + source.name.substr(0, 80), pictures));
   }
-  pictures.decode();
+  pictures.decode(maxTextureBytes);
   std::map<std::string, MaterialId> ids;
   for (const auto& [material, index] : indices) {
     if (index >= 0 && static_cast<std::size_t>(index) < materials.size()) {

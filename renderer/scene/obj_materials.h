@@ -24,6 +24,6 @@ class ByteStream : private std::streambuf, public std::istream {
 /// emission that is negative or not finite
 /// \return id by name
 std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector<std::byte> bytes,
-                                          const std::string& name, Scene& scene);
+                                          const std::string& name, std::uint64_t maxTextureBytes, Scene& scene);
 
 }  // namespace cellcut

@@ -5,6 +5,7 @@
 /// in double, because only the whole draft tells where the scene's centre is.
 #pragma once
 
+#include "renderer/scene/load_options.h"
 #include "renderer/scene/scene.h"
 
 #include <string>
@@ -13,9 +14,6 @@
 #include <glm/mat4x4.hpp>
 
 namespace cellcut {
-
-/// Largest number of triangles after instances are written out; 8 GB with normals and texture coordinates.
-inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 27;
 
 /// Triangles of one material in coordinates of their own. Attributes as in Mesh: empty, or one value per position.
 struct Part {
@@ -35,6 +33,7 @@ struct PartInstance {
 
 struct SceneDraft {
   std::string name;  ///< of the file, for messages
+  LoadLimits limits;
   Scene scene;
   std::vector<Part> parts;
   std::vector<PartInstance> instances;
@@ -53,7 +52,7 @@ bool usesTexCoords(const Material& material, std::uint8_t set);
 /// Writes out the instances around the scene's centre (Scene::origin), drops degenerate triangles and fills in what
 /// materials need and files leave out: texture coordinates, tangents, a camera. Parallel; the same result for any
 /// number of threads.
-/// \throws InputError if there are more than kMaxTriangles, or a place leaves the range of a float.
+/// \throws InputError if there are more than limits.maxTriangles, or a place leaves the range of a float.
 Scene flatten(SceneDraft draft);
 
 }  // namespace cellcut
