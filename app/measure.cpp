@@ -303,6 +303,9 @@ void showEqualTime(const Work& work) {
 
 int measure(const MeasureOptions& options, const Console& console) {
   requireConsistent(options);
+  RenderSettings film = options.picture.settings;
+  film.auxiliary = false;
+  requireMemory(film);
   prepareFolder(options);
   const InterruptRequest interrupt;
   Work work{options, console, interrupt.requested(), MeasureProgress(console.err, console.terminal), {}};

@@ -51,7 +51,8 @@ void add(Batches& batches, const ImageRgb& batch, double seconds) {
   }
 }
 
-/// relMSE of the mean against the truth, from the standard errors of its pixels.
+/// What the mean's noise adds to a relMSE that is measured against it, from the standard errors of its pixels: relative to
+/// itself, as all that is measured.
 double ownError(const Batches& batches) {
   double mean = 0;
   for (const Vec3& p : batches.mean) mean += (static_cast<double>(p.x) + p.y + p.z) / 3;

@@ -4,8 +4,11 @@
 #include "renderer/base/error.h"
 
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <numbers>
+#include <sstream>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -232,6 +235,18 @@ void addSettingOptions(CLI::App& verb, RenderOptions& options) {
   addSampling(verb, options.settings);
   addCuts(verb, options.settings.sampler);
   addView(verb, options);
+}
+
+void requireMemory(const RenderSettings& settings) {
+  const double pixels = static_cast<double>(settings.width) * settings.height;
+  const double needed = pixels * static_cast<double>(Film::bytesPerPixel(settings.auxiliary));
+  const double installed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= installed) return;
+  std::ostringstream problem;
+  problem << settings.width << "x" << settings.height << " pixels take " << std::llround(needed / 1e9)
+          << " GB while they are rendered and this machine has " << std::llround(installed / 1e9) << " GB; choose fewer"
+          << (settings.auxiliary ? ", or .png or .pfm, which need half" : "");
+  throw InputError("--size", problem.str());
 }
 
 std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex) {

@@ -63,6 +63,10 @@ int parseMaxCut(const std::string& option, const std::string& text);
 int parseGridResolution(const std::string& option, const std::string& text);
 int parseMaxDepth(const std::string& option, const std::string& text);
 
+/// Linux promises memory that it does not have and kills whoever uses it; a film that cannot fit is refused before that.
+/// \throws InputError
+void requireMemory(const RenderSettings& settings);
+
 /// Index of a camera by its exact name, else by its number from 0. Empty text is the first camera.
 /// \throws InputError that lists the cameras
 std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex);

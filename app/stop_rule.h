@@ -14,14 +14,14 @@ struct StopRule {
   Kind kind = Kind::kPasses;
   std::uint64_t passes = 64;  ///< samples per pixel, ≥ 1
   double seconds = 0;         ///< of rendering, > 0
-  double noise = 0;           ///< estimated √relMSE, > 0
+  double noise = 0;           ///< √relMSE, > 0
 };
 
 /// How far a rendering is, after a whole pass.
 struct RenderState {
   std::uint64_t passes = 0;
   double seconds = 0;        ///< since the first pass began
-  double relativeError = 0;  ///< Film::relativeError(); only looked at where needsNoise() says so
+  double relativeError = 0;  ///< √relMSE is below it (NoiseWatch); only looked at where needsNoise() says so
 };
 
 /// Whether the rule wants RenderState::relativeError after `passes` passes.

@@ -1,0 +1,67 @@
+#include "renderer/measure/noise.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace cellcut {
+namespace {
+
+/// The standard normal's quantile at kNoiseConfidence.
+constexpr double kNormalQuantile = 1.8808;
+
+double square(double x) {
+  return x * x;
+}
+
+/// Samples of one channel of one pixel.
+struct Moments {
+  double n, mean, squares;  ///< squares: Σ (x − mean)²
+};
+
+Moments momentsOf(const FilmState& state, std::size_t pixel, int channel, double unit) {
+  const auto n = static_cast<double>(state.passes);
+  return {n, state.mean[pixel][channel] / unit, square(state.standardError[pixel][channel] / unit) * n * (n - 1)};
+}
+
+/// What is left of the whole without the part. Source: Chan, Golub, LeVeque 1979, the update of two sums, undone.
+Moments rest(const Moments& whole, const Moments& part) {
+  const double n = whole.n - part.n;
+  const double mean = (whole.n * whole.mean - part.n * part.mean) / n;
+  const double between = square(mean - part.mean) * n * part.n / whole.n;
+  return {n, mean, std::max(0.0, whole.squares - part.squares - between)};
+}
+
+/// Expected relative squared error of the whole's mean, in a picture whose mean is 1.
+double expectedError(const Moments& part, const Moments& whole) {
+  const Moments other = rest(whole, part);
+  const auto across = [&](const Moments& variance, const Moments& mean) {
+    return variance.squares / (variance.n - 1) / (square(mean.mean) + 0.01);
+  };
+  return 0.5 * (across(part, other) + across(other, part)) / whole.n;
+}
+
+double meanOf(const ImageRgb& image) {
+  double sum = 0;
+  for (const Vec3& p : image) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
+  return sum / static_cast<double>(image.size());
+}
+
+}  // namespace
+
+NoiseEstimate estimateNoise(const FilmState& part, const FilmState& whole) {
+  assert(part.passes >= 2 && whole.passes >= part.passes + 2 && part.mean.size() == whole.mean.size());
+  const double unit = meanOf(whole.mean);  // squares neither overflow nor vanish in it
+  if (!(unit > 0)) return {0, 0};
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < whole.mean.size(); ++i) {
+    double q = 0;  // of a pixel: its channels share their noise
+    for (int c = 0; c < 3; ++c) q += expectedError(momentsOf(part, i, c, unit), momentsOf(whole, i, c, unit)) / 3;
+    sum += q;
+    squares += q * q;
+  }
+  const auto pixels = static_cast<double>(whole.mean.size());
+  return {std::sqrt(sum / pixels), std::sqrt((sum + kNormalQuantile * std::sqrt(3 * squares)) / pixels)};
+}
+
+}  // namespace cellcut
