@@ -2,7 +2,10 @@
 
 #include "renderer/measure/flip.h"
 
+#include <limits>
+
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace cellcut {
 
@@ -29,6 +32,11 @@ double meanOf(const ImageRgb& image) {
   return meanOverPixels(image.width(), image.height(), [&](int x, int y) { return channelMean(image.at(x, y)); });
 }
 
+double meanFlip(const ImageRgb& a, const ImageRgb& b) {
+  const Image<float> flip = flipHdr(a, b);
+  return meanOverPixels(a.width(), a.height(), [&](int x, int y) { return static_cast<double>(flip.at(x, y)); });
+}
+
 /// 0/0 is a black pixel that is right, whatever ε.
 double ratio(double square, double scale) {
   return square == 0 ? 0 : square / scale;
@@ -47,9 +55,7 @@ double largestDifference(const ImageRgb& a, const ImageRgb& b) {
   return largest;
 }
 
-}  // namespace
-
-ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
+ImageComparison compare(const ImageRgb& a, const ImageRgb& b, bool withFlip) {
   assert(a.width() == b.width() && a.height() == b.height() && !a.empty());
   const int width = a.width(), height = a.height();
   const auto squares = [&](int x, int y) {
@@ -66,10 +72,20 @@ ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
     const glm::dvec3 scale = glm::dvec3(b.at(x, y)) * glm::dvec3(b.at(x, y)) + result.epsilon;
     return channelMean({ratio(square.x, scale.x), ratio(square.y, scale.y), ratio(square.z, scale.z)});
   });
-  const Image<float> flip = flipHdr(a, b);
-  result.flip = meanOverPixels(width, height, [&](int x, int y) { return static_cast<double>(flip.at(x, y)); });
+  result.flip = withFlip ? meanFlip(a, b) : std::numeric_limits<double>::quiet_NaN();
   result.maxAbs = largestDifference(a, b);
   return result;
+}
+
+}  // namespace
+
+ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
+  return compare(a, b, true);
+}
+
+ImageComparison compareImagesOnThisThread(const ImageRgb& a, const ImageRgb& b, bool withFlip) {
+  tbb::task_arena alone(1);
+  return alone.execute([&] { return compare(a, b, withFlip); });
 }
 
 }  // namespace cellcut

@@ -19,4 +19,8 @@ struct ImageComparison {
 /// \pre the pictures have the same size and are not empty
 ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b);
 
+/// The same beside a rendering: it takes no threads from it.
+/// \param withFlip  FLIP takes longer than all the rest; without, it is NaN
+ImageComparison compareImagesOnThisThread(const ImageRgb& a, const ImageRgb& b, bool withFlip);
+
 }  // namespace cellcut
