@@ -13,7 +13,7 @@ void drawBookmarks(Widgets& widgets, ViewerState& state, ViewerCommand& command)
     places.push_back(i);
   }
   std::vector<std::string_view> shown(names.begin(), names.end());
-  shown.insert(shown.begin(), names.empty() ? "none kept" : "go to …");
+  shown.insert(shown.begin(), names.empty() ? "none" : "go to …");
   int index = 0;
   if (widgets.choice("Bookmarks", index, shown, "Views that were kept; also Shift+1 … 9, and Ctrl+1 … 9 to keep") &&
       index > 0) {
@@ -32,7 +32,7 @@ void drawRecent(Widgets& widgets, const ViewerFacts& facts, ViewerState& state, 
   std::vector<std::string> names;
   for (const std::filesystem::path& file : facts.recent) names.push_back(RecentFiles::nameOf(file));
   std::vector<std::string_view> shown(names.begin(), names.end());
-  shown.insert(shown.begin(), names.empty() ? "none yet" : "open …");
+  shown.insert(shown.begin(), names.empty() ? "none" : "open …");
   int index = 0;
   if (widgets.choice("Recent", index, shown, "Scenes that were opened last; Ctrl+O opens the one before this") &&
       index > 0) {
