@@ -88,6 +88,7 @@ int showViewer(const ViewOptions& options, const Console& console) {
   const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
   ViewerOptions viewerOptions = cellcut::viewerOptions(options.common, *scene);
   viewerOptions.record = options.record;
+  viewerOptions.recentFiles = recentFilesPath(options.headless);  // a script's scenes are no person's
   Viewer viewer(*opened.window, scene, sceneLoader(options.common), std::move(viewerOptions));
   if (options.script) {
     ScriptPlayer(*options.script, std::move(actions), std::filesystem::current_path()).play(viewer, *opened.window);

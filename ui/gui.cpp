@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <imgui.h>
 
@@ -75,9 +76,15 @@ void Gui::beginFrame(PixelSize size, double seconds, std::span<const InputEvent>
   io.DeltaTime = std::max(static_cast<float>(seconds), kShortest);
   state_->input.feed(io, queue_.takeFrame());
   ImGui::NewFrame();
+  inFrame_ = true;
+}
+
+void Gui::abandonFrame() {
+  if (std::exchange(inFrame_, false)) ImGui::EndFrame();
 }
 
 void Gui::endFrame() {
+  inFrame_ = false;
   ImGui::Render();
   state_->renderer.draw(*ImGui::GetDrawData());
 }

@@ -38,6 +38,8 @@ class Gui {
   /// Draws over what the bound framebuffer holds. Framebuffer binding and viewport (all of `size`) remain; blending,
   /// scissor, depth test, program, vertex array and texture bindings of unit 0 are left at OpenGL's defaults.
   void endFrame();
+  /// Ends a frame without drawing, if one was begun: after a failure between panels.
+  void abandonFrame();
 
   /// Events wait for the next frame, which should then come without sleeping.
   bool inputPending() const { return !queue_.empty(); }
@@ -62,6 +64,7 @@ class Gui {
   struct State;
   GuiSettings settings_;
   InputQueue queue_;
+  bool inFrame_ = false;
   std::unique_ptr<State> state_;
 };
 

@@ -4,7 +4,10 @@
 #include "renderer/base/tone_map.h"
 #include "renderer/measure/flip.h"
 
+#include <limits>
+
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace cellcut {
 
@@ -66,9 +69,7 @@ double largestDifference(const ImageRgb& a, const ImageRgb& b) {
   return largest;
 }
 
-}  // namespace
-
-ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
+ImageComparison compare(const ImageRgb& a, const ImageRgb& b, bool withFlip) {
   assert(a.width() == b.width() && a.height() == b.height() && !a.empty());
   const int width = a.width(), height = a.height();
   const auto squares = [&](int x, int y) {
@@ -91,10 +92,16 @@ ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
     const glm::dvec3 difference = glm::abs(p - q), scale = glm::abs(p) + glm::abs(q) + smallest;
     return channelMean({ratio(difference.x, scale.x), ratio(difference.y, scale.y), ratio(difference.z, scale.z)});
   });
-  result.flip = meanOf(flipHdr(a, b));
-  result.flipLdr = meanOf(flipLdr(displayed(a), displayed(b)));
+  result.flip = withFlip ? meanOf(flipHdr(a, b)) : std::numeric_limits<double>::quiet_NaN();
+  result.flipLdr = withFlip ? meanOf(flipLdr(displayed(a), displayed(b))) : std::numeric_limits<double>::quiet_NaN();
   result.maxAbs = largestDifference(a, b);
   return result;
+}
+
+}  // namespace
+
+ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
+  return compare(a, b, true);
 }
 
 double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference) {
@@ -105,6 +112,11 @@ double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& refe
     const glm::dvec3 product = (glm::dvec3(a.at(x, y)) - r) * (glm::dvec3(b.at(x, y)) - r), scale = r * r + epsilon;
     return channelMean({ratio(product.x, scale.x), ratio(product.y, scale.y), ratio(product.z, scale.z)});
   });
+}
+
+ImageComparison compareImagesOnThisThread(const ImageRgb& a, const ImageRgb& b, bool withFlip) {
+  tbb::task_arena alone(1);
+  return alone.execute([&] { return compare(a, b, withFlip); });
 }
 
 }  // namespace cellcut

@@ -30,4 +30,8 @@ ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b);
 /// \pre as compareImages
 double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference);
 
+/// The same beside a rendering: it takes no threads from it.
+/// \param withFlip  both kinds of FLIP take longer than all the rest; without, they are NaN
+ImageComparison compareImagesOnThisThread(const ImageRgb& a, const ImageRgb& b, bool withFlip);
+
 }  // namespace cellcut

@@ -19,6 +19,9 @@ std::shared_ptr<const Snapshot> RenderSession::snapshot() const {
 SessionState RenderSession::state() const {
   return driver_->state();
 }
+bool RenderSession::atRest() const {
+  return driver_->atRest();
+}
 void RenderSession::enqueue(std::function<void(const SessionView&)> job) {
   driver_->enqueue(std::move(job));
 }

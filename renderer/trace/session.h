@@ -66,6 +66,8 @@ class RenderSession {
   /// The newest one; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionState state() const;
+  /// Whether nothing is left to do, edits and steps that were just asked for included.
+  bool atRest() const;
 
   /// Runs `f(const SessionView&)` on the driver as soon as all edits before this call are answered, inside the arena that
   /// scenes are built on. Rendering goes on meanwhile to the end of the pass, an edit waits for it. What `f` throws comes

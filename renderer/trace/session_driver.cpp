@@ -72,6 +72,11 @@ std::shared_ptr<const Snapshot> SessionDriver::snapshot() const {
   return snapshot_;
 }
 
+bool SessionDriver::atRest() const {
+  const std::lock_guard lock(mutex_);
+  return isResting();
+}
+
 void SessionDriver::waitIdle() const {
   std::unique_lock lock(mutex_);
   progress_.wait(lock, [&] { return isResting(); });

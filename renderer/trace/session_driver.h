@@ -28,6 +28,7 @@ class SessionDriver {
   void enqueue(Job job);
   std::shared_ptr<const Snapshot> snapshot() const;
   SessionState state() const { return state_.load(); }
+  bool atRest() const;
   void waitIdle() const;
   std::shared_ptr<const Snapshot> waitPasses(std::uint64_t passes) const;
 

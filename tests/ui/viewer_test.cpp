@@ -3,10 +3,13 @@
 #include "renderer/base/error.h"
 #include "renderer/base/rng.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/recipes/recipe.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_directory.h"
+#include "ui/gl_error.h"
+#include "ui/memory_window.h"
 #include "ui/viewer/script.h"
 
 #include <fstream>
@@ -283,6 +286,152 @@ TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {
   EXPECT_LT(glm::length(first.settings.view->position - second.settings.view->position), 1e-4f);
   EXPECT_LT(glm::length(first.settings.view->back - second.settings.view->back), 1e-4f);
   EXPECT_EQ(viewer_->widgets().find("Samples"), nullptr) << "the section was closed";
+}
+
+TEST_F(ViewerTest, ViewsAreKeptAndGoneBackTo) {
+  play("drag left 300 200 340 220\nkey Ctrl+3\n");
+  const Camera kept = *viewer_->state().settings.view;
+  play("drag right 300 200 340 220\nclick \"Keep view\"\nkey R\nkey Shift+3\n");
+  EXPECT_TRUE(sameView(*viewer_->state().settings.view, kept));
+  EXPECT_EQ(viewer_->state().settings.strategy, Strategy::kCellCut) << "Shift+3 is no strategy";
+  play("set Bookmarks \"view 1\"\n");
+  EXPECT_FALSE(sameView(*viewer_->state().settings.view, kept));
+  play("set Bookmarks \"view 3\"\n");
+  EXPECT_TRUE(sameView(*viewer_->state().settings.view, kept));
+}
+
+TEST_F(ViewerTest, RecentFilesOutliveTheWindow) {
+  for (const char* name : {"one.glb", "two.glb"}) {
+    writeFileAtomically(folder_ / name, generateRecipe(Recipe::kRooms, 8, 0));
+  }
+  ViewerOptions options;
+  options.recentFiles = folder_ / "state" / "cellcut" / "recent";
+  open(options);
+  play("drop one.glb\nwait idle\ndrop two.glb\nwait idle\n");
+  ASSERT_EQ(viewer_->recentFiles().list().size(), 2u);
+  open(options);
+  ASSERT_EQ(viewer_->recentFiles().list().size(), 2u);
+  EXPECT_EQ(viewer_->recentFiles().list()[0].filename(), "two.glb");
+  play("set Recent \"" + RecentFiles::nameOf(folder_ / "one.glb") + "\"\nwait idle\n");
+  EXPECT_EQ(viewer_->recentFiles().list()[0].filename(), "one.glb");
+  play("key Ctrl+O\nwait idle\n");
+  EXPECT_EQ(viewer_->recentFiles().list()[0].filename(), "two.glb");
+  EXPECT_EQ(viewer_->problem(), "");
+}
+
+TEST_F(ViewerTest, AReferenceIsMadeBesideThePicture) {
+  play("wait idle\nclick Reference\nset \"Reference spp\" 32\nclick \"Make reference\"\nwait idle\n");
+  ASSERT_TRUE(viewer_->reference().picture);
+  EXPECT_EQ(viewer_->reference().passes, 32u);
+  play("set \"Stop at spp\" 16\nwait idle\n");
+  const ConvergenceRun run = viewer_->convergence().run();
+  ASSERT_GT(run.points.size(), 1u);
+  EXPECT_EQ(run.points.back().passes, 16u);
+  EXPECT_LT(run.points.back().relmse, run.points.front().relmse);
+  EXPECT_GE(run.points.back().flip, 0);
+  EXPECT_EQ(run.name, "cell-cut");
+  // Another strategy is another curve; another view has no reference.
+  play("click \"Keep run\"\nset Strategy uniform\nset Error MSE\nset Over samples\nwait idle\nkey Ctrl+E\n");
+  EXPECT_EQ(viewer_->keptRuns().size(), 1u);
+  EXPECT_EQ(viewer_->convergence().run().name, "uniform");
+  std::size_t tables = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    tables += entry.path().extension() == ".csv";
+  EXPECT_EQ(tables, 1u);
+  play("drag left 300 200 340 220\nwait idle\n");
+  EXPECT_EQ(viewer_->widgets().find("relMSE"), nullptr);
+  play("key J\nwait idle\n");
+  EXPECT_NE(viewer_->widgets().find("relMSE"), nullptr);
+}
+
+TEST_F(ViewerTest, ADuelGivesBothTheSameTime) {
+  play(
+      "wait idle\nclick Reference\nset \"Reference spp\" 32\nkey J\nwait idle\nclick Duel\nset Opponent uniform\n"
+      "set \"Stop at s\" 1\nset \"Duel in equal time\" on\nwait idle\n");
+  const WidgetItem* ratio = viewer_->widgets().find("Ratio");
+  ASSERT_NE(ratio, nullptr);
+  EXPECT_GT(std::stod(ratio->value), 0);
+  const std::shared_ptr<const Snapshot> left = viewer_->session().snapshot();
+  EXPECT_GE(left->seconds, 1);
+  EXPECT_LT(left->seconds, 1.5) << "a turn takes a quarter of a second";
+  EXPECT_NE(viewer_->widgets().find("Split"), nullptr);
+  play("key U\nwait idle\n");
+  EXPECT_EQ(viewer_->widgets().find("Split"), nullptr);
+}
+
+TEST_F(ViewerTest, LimitsPauseAndStep) {
+  play("wait idle\nexpect ETA done\nset Pause on\nset \"Stop at spp\" 5\nwait idle\n");
+  EXPECT_EQ(viewer_->session().snapshot()->passes, 2u);
+  play("click Step\nwait idle\nkey Period\nwait idle\n");
+  EXPECT_EQ(viewer_->session().snapshot()->passes, 4u);
+  play("key P\nwait idle\nexpect ETA done\nset \"Stop at spp\" 0\nset \"Stop at REL\" 0.5\nwait idle\n");
+  EXPECT_GE(viewer_->session().snapshot()->passes, kMinNoisePasses);
+  play("set \"Stop at REL\" 0\nset \"Stop at s\" 1\nwait idle\nexpect ETA done\n");
+  EXPECT_GE(viewer_->session().snapshot()->seconds, 1);
+}
+
+TEST_F(ViewerTest, AWindowWithoutAreaIsNoReasonToStop) {
+  play("wait idle\n");
+  window_->post(KeyChange{Key::kW, true});
+  viewer_->frame(1.0 / 60);
+  for (const PixelSize size : {PixelSize{0, 0}, PixelSize{300, 0}, PixelSize{0, 300}}) {
+    window_->resize(size);
+    viewer_->frame(1.0 / 60);
+    EXPECT_GT(viewer_->sleepSeconds(), 0) << "nothing is drawn: it sleeps";
+  }
+  window_->post(KeyChange{Key::kW, false});
+  viewer_->frame(1.0 / 60);
+  window_->resize({400, 720});
+  play("wait idle\n");
+  const Camera there = *viewer_->state().settings.view;
+  play("wait idle\n");
+  EXPECT_TRUE(sameView(*viewer_->state().settings.view, there)) << "the key that was released flies no farther";
+  window_->resize({1, 1});
+  play("wait idle\nsize 400 720\nwait idle\n");
+  EXPECT_EQ(viewer_->problem(), "");
+}
+
+/// A window whose context is lost for some frames.
+class FlakyWindow final : public MemoryWindow {
+ public:
+  explicit FlakyWindow(PixelSize size) : MemoryWindow(size), inner_(openWindow(WindowKind::kEgl, {.size = size})) {}
+  WindowKind kind() const override { return inner_->kind(); }
+  void makeCurrent() override {
+    if (lost) throw GlError("the context is lost");
+    inner_->makeCurrent();
+  }
+  bool lost = false;
+
+ private:
+  std::unique_ptr<Window> inner_;
+};
+
+TEST_F(ViewerTest, AContextThatFailsIsWaitedForAndThenGivenUp) {
+  viewer_.reset();
+  auto flaky = std::make_unique<FlakyWindow>(PixelSize{400, 720});
+  FlakyWindow& window = *flaky;
+  window_ = std::move(flaky);
+  open({});
+  play("wait idle\n");
+  window.lost = true;
+  for (int i = 0; i < 5; ++i) viewer_->frame(1.0 / 60);
+  EXPECT_THAT(viewer_->problem(), HasSubstr("lost"));
+  window.lost = false;
+  play("click Dismiss\nwait idle\nset Strategy power\nwait idle\n");
+  EXPECT_EQ(viewer_->problem(), "");
+  // A framebuffer that no driver has.
+  window.resize({100'000, 100'000});
+  viewer_->frame(1.0 / 60);
+  EXPECT_NE(viewer_->problem(), "");
+  window.resize({400, 720});
+  play("click Dismiss\nwait idle\n");
+  window.lost = true;
+  const auto forEver = [this] {
+    for (int i = 0; i < 1000; ++i) viewer_->frame(1.0 / 60);
+  };
+  EXPECT_THROW(forEver(), GlError);
+  window.lost = false;  // for what the viewer gives back
+  window.makeCurrent();
 }
 
 TEST_F(ViewerTest, RandomEditsEndWithTheirOwnPicture) {

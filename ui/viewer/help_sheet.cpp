@@ -1,5 +1,6 @@
 #include "ui/viewer/panels.h"
 
+#include <algorithm>
 #include <array>
 
 #include <imgui.h>
@@ -7,7 +8,7 @@
 namespace cellcut {
 
 void drawHelp(bool& open) {
-  static constexpr std::array<std::array<const char*, 2>, 26> kKeys{
+  static constexpr std::array<std::array<const char*, 2>, 31> kKeys{
       {{"F1", "this sheet"},
        {"F2", "hide or show the panels"},
        {"F5", "load the scene's file again"},
@@ -32,12 +33,25 @@ void drawHelp(bool& open) {
        {"T, hold B", "store the picture, flip to it"},
        {"+ −", "exposure"},
        {"Ctrl+C, Ctrl+V", "copy and paste the view"},
+       {"Ctrl+1 … 9", "keep the view; Shift+1 … 9 goes back to it"},
+       {"Ctrl+O", "open the scene before this one again"},
+       {"J", "make a reference, or use it as far as it is"},
+       {"Y, Ctrl+E", "keep the convergence curve, save all as CSV"},
+       {"U", "duel of two strategies in equal time"},
        {"Escape", "end the inspection"},
-       {"drop a file", "open a scene"}}};
-  ImGui::SetNextWindowSize(ImVec2(30 * ImGui::GetFontSize(), 0), ImGuiCond_Always);
-  const ImVec2 middle(0.5f * ImGui::GetIO().DisplaySize.x, 0.5f * ImGui::GetIO().DisplaySize.y);
+       {"drop a file", "open a scene, or an EXR as reference"}}};
+  // On a small window the letters are smaller: a sheet that scrolls is one where a key is overlooked.
+  const ImVec2 window = ImGui::GetIO().DisplaySize, spacing = ImGui::GetStyle().ItemSpacing;
+  const float font = ImGui::GetFontSize(), row = font + spacing.y;
+  const float height = (static_cast<float>(kKeys.size()) + 1) * row, width = 33 * font;
+  const float rest = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
+  const float scale = std::min({1.0f, (0.98f * window.y - rest) / height, 0.98f * window.x / width});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(scale * spacing.x, scale * spacing.y));
+  ImGui::SetNextWindowSize(ImVec2(scale * width, scale * height + rest), ImGuiCond_Always);
+  const ImVec2 middle(0.5f * window.x, 0.5f * window.y);
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   if (ImGui::Begin("Keys (F1)", &open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize)) {
+    ImGui::SetWindowFontScale(scale);
     for (const auto& [key, what] : kKeys) {
       ImGui::TextUnformatted(key);
       ImGui::SameLine(9 * ImGui::GetFontSize());
@@ -45,6 +59,7 @@ void drawHelp(bool& open) {
     }
   }
   ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace cellcut

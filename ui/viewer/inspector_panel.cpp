@@ -1,3 +1,4 @@
+#include "ui/viewer/panel_parts.h"
 #include "ui/viewer/panels.h"
 
 #include <algorithm>
@@ -41,8 +42,11 @@ void percent(double value) {
 /// \param pointed  the row whose box in the picture is under the pointer
 void drawTable(Widgets& widgets, const std::vector<ClusterRow>& rows, std::optional<std::size_t> pointed,
                ViewerState& state) {
-  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
-  if (!ImGui::BeginTable("clusters", 5, kFlags, ImVec2(0, 14 * ImGui::GetTextLineHeightWithSpacing()))) return;
+  ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
+  // Where large letters meet a narrow panel the columns keep their width and scroll.
+  const bool narrow = ImGui::GetContentRegionAvail().x < 21 * ImGui::GetFontSize();
+  if (narrow) flags |= ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
+  if (!ImGui::BeginTable("clusters", 5, flags, ImVec2(0, 14 * ImGui::GetTextLineHeightWithSpacing()))) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   for (const char* column : {"lights", "estimate", "P %", "true %", "diff"}) ImGui::TableSetupColumn(column);
   ImGui::TableHeadersRow();
@@ -85,7 +89,7 @@ ViewerCommand drawSelection(Widgets& widgets, const std::vector<ClusterRow>& row
   if (count > 1) widgets.slider("Light", state.selectedLight, 0, count, "One light of the cluster, 0 for all of them");
   ViewerCommand command = ViewerCommand::kNone;
   if (widgets.button("Solo", "Render what it contributes alone (L)")) command = ViewerCommand::kSolo;
-  ImGui::SameLine();
+  besideIfRoom("Mute");
   if (widgets.button("Mute", "Render all but what it contributes (M)")) command = ViewerCommand::kMute;
   return command;
 }
@@ -125,7 +129,7 @@ ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, Vie
     drawTable(widgets, report.clusters, pointed, state);
     command = drawSelection(widgets, report.clusters, state);
     if (widgets.button("Copy cut", "The table as JSON to the clipboard")) command = ViewerCommand::kExportCut;
-    ImGui::SameLine();
+    besideIfRoom("Close");
   }
   if (widgets.button("Close", "End the inspection (Escape)")) command = ViewerCommand::kUnpick;
   return command;

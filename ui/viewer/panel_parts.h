@@ -29,6 +29,14 @@ constexpr auto namesOf(const Entries& entries) {
   return names;
 }
 
+/// The next button goes beside the last item where there is room for it.
+inline void besideIfRoom(const char* next) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::CalcTextSize(next).x + 2 * style.FramePadding.x;
+  const float right = ImGui::GetItemRectMax().x + style.ItemSpacing.x + width;
+  if (right <= ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x) ImGui::SameLine();
+}
+
 template <class Enum>
 bool chooseEnum(Widgets& widgets, const char* label, Enum& value, std::span<const std::string_view> names,
                 const char* tooltip) {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "renderer/trace/snapshot.h"
+#include "ui/viewer/convergence.h"
 #include "ui/viewer/overlay_source.h"
+#include "ui/viewer/recent_files.h"
+#include "ui/viewer/reference.h"
 #include "ui/viewer/viewer_state.h"
 #include "ui/viewer/widgets.h"
 
@@ -11,13 +14,27 @@
 
 namespace cellcut {
 
+/// What is known of the errors.
+struct MeasureFacts {
+  bool making = false;                 ///< a reference
+  std::uint64_t made = 0, wanted = 0;  ///< samples per pixel of it
+  const Reference& reference;
+  bool fits;                        ///< the reference shows what is rendered
+  const ConvergenceRun& run;        ///< of what is rendered
+  const ConvergenceRun* secondRun;  ///< of the opponent; null without a duel
+  const std::vector<ConvergenceRun>& kept;
+};
+
 /// What panels show and cannot change.
 struct ViewerFacts {
   const Scene& scene;
   const Snapshot& snapshot;
   const OverlayPicture* overlay;  ///< null before the first
   bool hasStored;                 ///< a picture to compare with is stored
-  std::string problem;            ///< of the last file or edit, for a person; empty: none
+  const Snapshot* second;         ///< of the opponent in a duel; null without
+  const std::vector<std::filesystem::path>& recent;
+  MeasureFacts measure;
+  std::string problem;  ///< of the last file or edit, for a person; empty: none
 };
 
 /// What a person asked for by a button or a key: at most one per frame.
@@ -36,11 +53,20 @@ enum class ViewerCommand {
   kExportCut,
   kSolo,  ///< only the selected lights
   kMute,  ///< all but the selected lights
-  kAllLights
+  kAllLights,
+  kKeepView,    ///< as bookmark state.chosen
+  kRecallView,  ///< bookmark state.chosen
+  kOpenRecent,  ///< file state.chosen of the list
+  kReference,   ///< make one, or take it as far as it is
+  kKeepRun,
+  kClearRuns,
+  kSaveCsv
 };
 
 ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 ViewerCommand drawViewPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+ViewerCommand drawReferencePanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+void drawDuelPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts);
 ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);

@@ -95,10 +95,10 @@ ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, Viewer
   limitField(widgets, "Stop at s", state.timeLimit, "Seconds after which rendering rests");
   limitField(widgets, "Stop at REL", state.noiseLimit, "Estimated relative error (root of relMSE) at which it rests");
   widgets.checkbox("Pause", state.paused, "P");
-  ImGui::SameLine();
+  besideIfRoom("Step");
   if (widgets.button("Step", "One pass of a paused rendering (.)")) command = ViewerCommand::kSingleStep;
-  ImGui::SameLine();
-  ImGui::TextUnformatted(remaining(state, facts.snapshot).c_str());
+  const std::string rest = remaining(state, facts.snapshot);
+  if (!rest.empty()) widgets.text("ETA", rest, "Until the nearest of the limits");
   return command;
 }
 

@@ -236,8 +236,8 @@ void ScriptPlayer::wait(const ScriptAction& action, Stage& stage) const {
   for (;;) {
     frames(stage, 1);
     const std::shared_ptr<const Snapshot> snapshot = stage.viewer.session().snapshot();
-    const bool done = idle ? stage.viewer.session().state() == SessionState::kIdle
-                           : !snapshot->preview && static_cast<double>(snapshot->passes) >= passes;
+    const bool done =
+        idle ? stage.viewer.atRest() : !snapshot->preview && static_cast<double>(snapshot->passes) >= passes;
     if (stage.viewer.settled() && done) break;
     if (std::chrono::steady_clock::now() - start > kLongestWait) fail(action, "waited for ten minutes");
     // Until there is news: frames drawn meanwhile would take the cores from the rendering.

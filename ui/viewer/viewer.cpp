@@ -2,6 +2,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/trace/light_mask.h"
+#include "ui/gl_error.h"
 
 #include <chrono>
 #include <ctime>
@@ -14,6 +15,9 @@ namespace {
 
 /// Panels' width in letters.
 constexpr float kPanelLetters = 25;
+/// Frames in a row that OpenGL may fail in before the viewer gives up: what is short of memory may get it, what is lost
+/// for good never works again.
+constexpr int kMostGlFailures = 40;
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
   const bool sameCamera =
       a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || sameView(*a.view, *b.view));
@@ -36,6 +40,8 @@ bool isReady(const std::future<T>& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
+}  // namespace
+
 std::string timeStamp() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -45,8 +51,6 @@ std::string timeStamp() {
   return text;
 }
 
-}  // namespace
-
 Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader loader, ViewerOptions options)
     : window_(window),
       scene_(std::move(scene)),
@@ -55,21 +59,42 @@ Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader l
       state_(options_.state),
       pose_(poseOf(viewOf(*scene_, state_.settings), scene_->bounds)),
       gui_(window, {.scale = options_.uiScale * window.contentScale()}),
+      recent_(options_.recentFiles),
+      reference_{options_.reference, {}, 0},
+      maker_([&window] { window.wake(); }),
       session_([&window] { window.wake(); }) {
   if (options_.record) recorder_ = std::make_unique<ScriptRecorder>(*options_.record);
+  if (!options_.file.empty()) recent_.add(options_.file);
   snapshot_ = session_.snapshot();
 }
 
 Viewer::~Viewer() = default;
 
 double Viewer::sleepSeconds() const {
+  if (minimised_ || glFailures_ > 0) return 0.25;
   if (flying_ || pointing_ || gui_.inputPending()) return 0;
-  return loading_.valid() || saving_.valid() || overlays_.busy() ? 0.02 : 0.25;
+  return loading_.valid() || loadingReference_.valid() || saving_.valid() || overlays_.busy() || convergence_.busy() ||
+                 secondConvergence_.busy()
+             ? 0.02
+             : 0.25;
 }
 
 bool Viewer::settled() const {
-  return !edited_ && !loading_.valid() && !saving_.valid() && !overlays_.busy() && !gui_.inputPending() &&
-         session_.snapshot()->generation >= generation_ && (!overlayWanted() || overlayIsCurrent());
+  return !edited_ && !loading_.valid() && !loadingReference_.valid() && !saving_.valid() && !overlays_.busy() &&
+         !gui_.inputPending() && session_.snapshot()->generation >= generation_ &&
+         (!overlayWanted() || overlayIsCurrent());
+}
+
+bool Viewer::atRest() const {
+  if (maker_.busy() || convergence_.busy() || secondConvergence_.busy()) return false;
+  if (duel_ && !state_.paused) {
+    if (!duel_->finished()) return false;
+  } else if (!session_.atRest()) {
+    return false;
+  }
+  // The last samples are measured too.
+  const bool measured = !referenceFits() || snapshot_->preview || convergence_.measured() >= snapshot_->passes;
+  return settled() && measured;
 }
 
 void Viewer::guarded(const std::function<void()>& action) {
@@ -81,6 +106,14 @@ void Viewer::guarded(const std::function<void()>& action) {
 }
 
 void Viewer::open(const std::filesystem::path& file) {
+  const std::filesystem::path kind = file.extension();
+  if (kind == ".exr" || kind == ".pfm") {
+    if (loadingReference_.valid()) return;
+    loadingReference_ = std::async(std::launch::async, [file] {
+      return Reference{std::make_shared<const ImageRgb>(readImage(file)), {}, 0};
+    });
+    return;
+  }
   if (loading_.valid()) return;  // one at a time; the file can be dropped again
   loadingFile_ = file;
   loading_ = std::async(std::launch::async, [loader = loader_, file] { return loader(file); });
@@ -95,7 +128,9 @@ void Viewer::takeScene() {
     state_.settings.camera = std::min(state_.settings.camera, scene_->cameras.size() - 1);
     state_.settings.view.reset();
     state_.settings.shownLights.reset();
+    state_.bookmarks = {};
     state_.pick.reset();
+    recent_.add(options_.file);
     pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
     window_.setTitle("cellcut: " + options_.file.filename().string());
     edited_ = true;
@@ -108,6 +143,7 @@ void Viewer::takeNews() {
     if (recorder_) recorder_->pictureChangesAfter({"drop", std::filesystem::absolute(file).string()});
   }
   takeScene();
+  takeReference();
   if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
@@ -122,10 +158,27 @@ void Viewer::takeNews() {
 }
 
 void Viewer::frame(double seconds) {
-  window_.makeCurrent();
+  try {
+    drawFrame(seconds);
+    glFailures_ = 0;
+  } catch (const GlError& error) {
+    gui_.abandonFrame();
+    // What the context held may be gone with it: all of it is made anew.
+    framebuffer_.reset();
+    snapshot_ = std::make_shared<const Snapshot>();
+    overlayDrawn_ = false;
+    problem_ = error.what();
+    if (++glFailures_ >= kMostGlFailures) throw;
+  }
+}
+
+void Viewer::drawFrame(double seconds) {
   const PixelSize size = window_.framebufferSize();
-  const std::vector<InputEvent> events = window_.takeEvents();
-  if (size.empty()) return;
+  for (const InputEvent& event : window_.takeEvents()) heldEvents_.push_back(event);
+  minimised_ = size.empty();
+  if (minimised_) return;  // a key that is released meanwhile is released when there is a window again
+  window_.makeCurrent();
+  const std::vector<InputEvent> events = std::exchange(heldEvents_, {});
   if (!framebuffer_ || framebuffer_->size() != size) framebuffer_ = std::make_unique<GlFramebuffer>(size);
   if (recorder_ && size != recordedSize_) {
     recorder_->pictureChangesAfter({"size", std::to_string(size.width), std::to_string(size.height)});
@@ -149,6 +202,8 @@ void Viewer::frame(double seconds) {
   recordFrame();
   pointAtCluster();
   applyEdits();
+  if (duel_ && !state_.paused) duel_->drive(session_, generation_);
+  measure();
   requestOverlay();
   showOverlay();
   drawOverPicture();
@@ -176,13 +231,23 @@ void Viewer::drawPanels() {
                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                       ImGuiWindowFlags_NoBringToFrontOnFocus;
   ImGui::Begin("panels", nullptr, kFixed);
-  const ViewerFacts facts{*scene_, *snapshot_, overlay(), stored_, problem_};
+  const MeasureFacts errors{.making = maker_.busy(),
+                            .made = maker_.passes(),
+                            .wanted = maker_.wanted(),
+                            .reference = reference_,
+                            .fits = referenceFits(),
+                            .run = convergence_.run(),
+                            .secondRun = duel_ ? &secondConvergence_.run() : nullptr,
+                            .kept = keptRuns_};
+  const ViewerFacts facts{*scene_, *snapshot_, overlay(), stored_, second_.get(), recent_.list(), errors, problem_};
   run(drawProblem(shown_, facts));
   if (loading_.valid()) ImGui::TextWrapped("loading %s …", loadingFile_.filename().string().c_str());
   run(drawInspectorPanel(shown_, facts, state_));
   run(drawRenderPanel(shown_, facts, state_));
   run(drawViewPanel(shown_, facts, state_));
   drawOverlayPanel(shown_, facts, state_);
+  run(drawReferencePanel(shown_, facts, state_));
+  drawDuelPanel(shown_, facts, state_);
   drawStatisticsPanel(shown_, facts);
   ImGui::End();
 }
@@ -192,8 +257,9 @@ void Viewer::run(ViewerCommand command) {
     case ViewerCommand::kNone:
       return;
     case ViewerCommand::kStore:
-      return storePicture();
+      return guarded([this] { storePicture(); });
     case ViewerCommand::kForget:
+      state_.duel = false;
       view_.clearImage(ImageSlot::kB);
       stored_ = false;
       return;
@@ -223,6 +289,21 @@ void Viewer::run(ViewerCommand command) {
       return showLights(command == ViewerCommand::kSolo);
     case ViewerCommand::kAllLights:
       return state_.settings.shownLights.reset();
+    case ViewerCommand::kKeepView:
+      return keepView();
+    case ViewerCommand::kRecallView:
+      return recallView();
+    case ViewerCommand::kOpenRecent:
+      return openRecent();
+    case ViewerCommand::kReference:
+      return toggleReference();
+    case ViewerCommand::kKeepRun:
+      if (!convergence_.run().points.empty()) keptRuns_.push_back(convergence_.run());
+      return;
+    case ViewerCommand::kClearRuns:
+      return keptRuns_.clear();
+    case ViewerCommand::kSaveCsv:
+      return guarded([this] { saveCsv(); });
     case ViewerCommand::kExportCut:
       if (overlay_ && overlay_->inspection) window_.setClipboard(toJson(*overlay_->inspection).dump(2));
       return;
@@ -230,7 +311,7 @@ void Viewer::run(ViewerCommand command) {
 }
 
 void Viewer::showLights(bool solo) {
-  const std::optional<std::size_t> row = state_.selectedCluster ? state_.selectedCluster : state_.hoveredCluster;
+  const std::optional<std::size_t> row = state_.selectedCluster ? state_.selectedCluster : pointedBefore_;
   if (!row || !overlay_ || !overlay_->inspection || *row >= overlay_->inspection->clusters.size()) return;
   std::span<const LightId> lights = overlay_->inspection->clusters[*row].lights;
   if (row == state_.selectedCluster && state_.selectedLight > 0) {
@@ -270,12 +351,23 @@ void Viewer::applyEdits() {
   input.noiseLimit = state_.noiseLimit;
   input.paused = state_.paused;
   edited_ = false;
-  if (sameInput(input, applied_)) return;
+  if (sameInput(input, applied_) && state_.duel == (duel_ != nullptr) && state_.opponent == opponent_) return;
   const RenderSettings& before = applied_.settings;
   if (applied_.scene && (input.settings.width != before.width || input.settings.height != before.height)) {
     state_.pick.reset();  // that pixel shows something else now
   }
+  if (!applied_.scene || applied_.scene != input.scene || !sameSettings(before, input.settings) ||
+      (duel_ != nullptr) != state_.duel || state_.opponent != opponent_) {
+    convergence_.restart(std::string(nameOf(input.settings.strategy)));
+    secondConvergence_.restart(std::string(nameOf(state_.opponent)));
+  }
   applied_ = input;
+  opponent_ = state_.opponent;
+  if (!state_.duel) endDuel();
+  if (state_.duel) {
+    if (!duel_) duel_ = std::make_unique<Duel>([this] { window_.wake(); });
+    input = duel_->edit(input, state_.opponent);
+  }
   generation_ = session_.edit(std::move(input));
 }
 
@@ -298,7 +390,7 @@ void Viewer::requestOverlay() {
   if (overlays_.busy() || snapshot_->generation < generation_ || overlayIsCurrent()) return;
   overlayState_ = state_;
   overlayPasses_ = snapshot_->passes;
-  overlays_.request(session_, state_.overlay, state_.pick, options_.reference);
+  overlays_.request(session_, state_.overlay, state_.pick, reference_.picture);
 }
 
 void Viewer::refreshOverlay() {
@@ -306,7 +398,7 @@ void Viewer::refreshOverlay() {
   overlays_.take();
   overlayState_ = state_;
   overlayPasses_ = session_.snapshot()->passes;
-  overlays_.request(session_, state_.overlay, state_.pick, options_.reference);
+  overlays_.request(session_, state_.overlay, state_.pick, reference_.picture);
   overlays_.wait();
 }
 

@@ -8,8 +8,12 @@
 #include "ui/gl_framebuffer.h"
 #include "ui/gui.h"
 #include "ui/image_view.h"
+#include "ui/viewer/convergence.h"
+#include "ui/viewer/duel.h"
 #include "ui/viewer/overlay_source.h"
 #include "ui/viewer/panels.h"
+#include "ui/viewer/recent_files.h"
+#include "ui/viewer/reference.h"
 #include "ui/viewer/script_recorder.h"
 #include "ui/viewer/viewer_state.h"
 #include "ui/viewer/widgets.h"
@@ -31,10 +35,14 @@ struct ViewerOptions {
   float uiScale = 1;                                  ///< [0.5, 4]
   std::filesystem::path file;                         ///< of the scene, for F5
   std::filesystem::path saveFolder = ".";             ///< of F12
-  std::shared_ptr<const ImageRgb> reference;          ///< for the overlay `error`; may be null
+  std::shared_ptr<const ImageRgb> reference;          ///< for errors; may be null
+  std::optional<std::filesystem::path> recentFiles;   ///< where the list of recent files is kept
   std::optional<std::filesystem::path> record;        ///< what the person does is written there as a script
   std::optional<std::uint64_t> sizeSettleFrames = 3;  ///< frames of one size before the rendering follows the window
 };
+
+/// "20260131-235959", for names of files.
+std::string timeStamp();
 
 class Viewer {
  public:
@@ -44,6 +52,7 @@ class Viewer {
 
   /// Input, panels, edits, drawing; shows it in the window.
   /// \param seconds  since the last frame
+  /// \throws GlError when OpenGL has failed for many frames in a row; one that works again goes on
   void frame(double seconds);
   /// How long the window may sleep when nothing comes in; 0 while there is something to animate.
   double sleepSeconds() const;
@@ -64,6 +73,12 @@ class Viewer {
   ImagePlacement placement() const { return placement_; }
   /// Whether the newest snapshot is of the newest edit and nothing is being loaded or looked up.
   bool settled() const;
+  /// Whether nothing is left to do: no pass, no turn of a duel, no reference, no measurement.
+  bool atRest() const;
+  const Reference& reference() const { return reference_; }
+  const Convergence& convergence() const { return convergence_; }
+  const std::vector<ConvergenceRun>& keptRuns() const { return keptRuns_; }
+  const RecentFiles& recentFiles() const { return recent_; }
   /// Asks for the overlay and waits for it: for screenshots.
   void refreshOverlay();
   /// Keeps the picture that is shown to compare with.
@@ -76,10 +91,22 @@ class Viewer {
     Vec2 start{0};
     Vec2 last{0};  ///< up to where the camera has followed
   };
+  void drawFrame(double seconds);
   void takeNews();
   void takeScene();
+  void takeReference();
+  void measure();
+  void endDuel();
+  bool referenceFits() const { return reference_.fits(applied_); }
+  void useReference(Reference reference);
+  void toggleReference();
+  void saveCsv();
+  void keepView();
+  void recallView();
+  void openRecent();
   void drawPanels();
   ViewerCommand readKeys(double seconds);
+  ViewerCommand readControlKeys();
   void readMouse();
   void record(std::vector<std::string> words);
   void recordKeys();
@@ -122,6 +149,9 @@ class Viewer {
   std::unique_ptr<GlFramebuffer> framebuffer_;
   Widgets shown_;
   std::string reveal_;
+  std::vector<InputEvent> heldEvents_;  ///< while there is no area to draw on
+  bool minimised_ = false;
+  int glFailures_ = 0;  ///< in a row
   PixelRect area_;
   ImagePlacement placement_;
   PixelSize wantedSize_;
@@ -138,7 +168,17 @@ class Viewer {
   std::string problem_;
   std::future<std::shared_ptr<const Scene>> loading_;
   std::filesystem::path loadingFile_;
-  std::future<std::string> saving_;  ///< what to say then
+  RecentFiles recent_;
+  Reference reference_;
+  std::future<Reference> loadingReference_;
+  Convergence convergence_, secondConvergence_;
+  std::vector<ConvergenceRun> keptRuns_;
+  std::shared_ptr<const Snapshot> second_;       ///< of the opponent; null without a duel
+  std::shared_ptr<const Snapshot> secondShown_;  ///< the one that lies in the picture
+  ReferenceMaker maker_;
+  std::unique_ptr<Duel> duel_;
+  Strategy opponent_ = Strategy::kPower;  ///< as applied
+  std::future<std::string> saving_;       ///< what to say then
   OverlaySource overlays_;
   RenderSession session_;  ///< last: its threads stop before anything that they call goes
 };

@@ -31,6 +31,9 @@ constexpr std::string_view kFlightKeys = "WASDQEC";
 bool isFunctionKey(Key key) {
   return key >= Key::kF1 && key <= Key::kF12;
 }
+Key digit(std::size_t i) {
+  return static_cast<Key>(static_cast<std::size_t>(Key::k1) + i);
+}
 bool isModifier(Key key) {
   return key >= Key::kLeftShift;
 }
@@ -45,12 +48,14 @@ ViewerCommand Viewer::readKeys(double seconds) {
   if (gui_.keyPressed(Key::kF5)) return ViewerCommand::kReload;
   if (gui_.keyPressed(Key::kF12)) return ViewerCommand::kSave;
   if (gui_.wantsKeyboard()) return ViewerCommand::kNone;
-  if (gui_.controlDown()) {
-    if (gui_.keyPressed(Key::kC)) return ViewerCommand::kCopyCamera;
-    return gui_.keyPressed(Key::kV) ? ViewerCommand::kPasteCamera : ViewerCommand::kNone;
-  }
+  if (gui_.controlDown()) return readControlKeys();
   fly(seconds);
   flip_ = gui_.keyDown(Key::kB);
+  for (std::size_t i = 0; gui_.shiftDown() && i < kBookmarks; ++i) {
+    if (!gui_.keyPressed(digit(i))) continue;
+    state_.chosen = i;
+    return ViewerCommand::kRecallView;
+  }
   for (std::size_t i = 0; i < kStrategies.size(); ++i) {
     if (gui_.keyPressed(static_cast<Key>(static_cast<int>(Key::k1) + static_cast<int>(i)))) {
       state_.settings.strategy = kStrategies[i].strategy;
@@ -69,10 +74,13 @@ ViewerCommand Viewer::readKeys(double seconds) {
                      static_cast<float>(gui_.keyPressed(Key::kLeftBracket, true));
   if (step != 0)
     state_.overlay.slice.position = std::clamp(state_.overlay.slice.position + kSliceStep * step, 0.0f, 1.0f);
-  if (gui_.keyPressed(Key::kX) && state_.hoveredCluster) {
-    state_.selectedCluster = state_.hoveredCluster;
+  if (gui_.keyPressed(Key::kX) && pointedBefore_) {
+    state_.selectedCluster = pointedBefore_;
     state_.selectedLight = 0;
   }
+  if (gui_.keyPressed(Key::kU)) state_.duel = !state_.duel;
+  if (gui_.keyPressed(Key::kJ)) return ViewerCommand::kReference;
+  if (gui_.keyPressed(Key::kY)) return ViewerCommand::kKeepRun;
   if (gui_.keyPressed(Key::kL)) return ViewerCommand::kSolo;
   if (gui_.keyPressed(Key::kM)) return ViewerCommand::kMute;
   if (gui_.keyPressed(Key::kN)) return ViewerCommand::kAllLights;
@@ -85,6 +93,26 @@ ViewerCommand Viewer::readKeys(double seconds) {
   if (gui_.keyPressed(Key::kT)) return ViewerCommand::kStore;
   if (gui_.keyPressed(Key::kF)) focusAt(mousePosition());
   return gui_.keyPressed(Key::kR) ? ViewerCommand::kResetCamera : ViewerCommand::kNone;
+}
+
+ViewerCommand Viewer::readControlKeys() {
+  for (std::size_t i = 0; i < kBookmarks; ++i) {
+    if (!gui_.keyPressed(digit(i))) continue;
+    state_.chosen = i;
+    return ViewerCommand::kKeepView;
+  }
+  if (gui_.keyPressed(Key::kO)) {
+    // The first that is not the one that is shown.
+    std::error_code ignored;
+    const std::filesystem::path shown = std::filesystem::absolute(options_.file, ignored).lexically_normal();
+    const auto& list = recent_.list();
+    const auto other = std::find_if(list.begin(), list.end(), [&](const auto& file) { return file != shown; });
+    state_.chosen = static_cast<std::size_t>(other - list.begin());
+    return ViewerCommand::kOpenRecent;
+  }
+  if (gui_.keyPressed(Key::kE)) return ViewerCommand::kSaveCsv;
+  if (gui_.keyPressed(Key::kC)) return ViewerCommand::kCopyCamera;
+  return gui_.keyPressed(Key::kV) ? ViewerCommand::kPasteCamera : ViewerCommand::kNone;
 }
 
 CameraPose Viewer::pose() const {

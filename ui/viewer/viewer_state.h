@@ -9,6 +9,7 @@
 #include "ui/overlays/slice.h"
 #include "ui/viewer/camera_control.h"
 
+#include <array>
 #include <optional>
 
 namespace cellcut {
@@ -23,6 +24,15 @@ struct OverlayChoice {
   bool operator==(const OverlayChoice&) const = default;
 };
 
+enum class ErrorMetric { kMse, kRelMse, kFlip };
+
+struct PlotChoice {
+  ErrorMetric metric = ErrorMetric::kRelMse;
+  bool overPasses = false;  ///< else over seconds
+};
+
+inline constexpr std::size_t kBookmarks = 9;
+
 struct ViewerState {
   RenderSettings settings;  ///< width and height follow the window
   std::optional<std::uint64_t> passLimit;
@@ -35,6 +45,12 @@ struct ViewerState {
   std::optional<std::size_t> hoveredCluster;   ///< row of the inspector, or box in the picture, under the pointer
   std::optional<std::size_t> selectedCluster;  ///< row that was clicked
   int selectedLight = 0;                       ///< of the selected cluster, from 1; 0: all of them
+  std::array<std::optional<CameraPose>, kBookmarks> bookmarks;  ///< of this scene
+  std::size_t chosen = 0;      ///< the bookmark or the recent file that a command is about
+  int referencePasses = 1024;  ///< of a reference made here
+  PlotChoice plot;
+  bool duel = false;
+  Strategy opponent = Strategy::kPower;  ///< in a duel
   bool showUi = true;
   bool showHelp = false;
 };

@@ -21,11 +21,13 @@ void explain(const char* tooltip) {
   if (tooltip && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
 }
 
-/// The name goes before the field, where a narrow panel never cuts it off.
+/// The name goes before the field, where a narrow panel never cuts it off, or above it where it is too long for that.
 void nameOfField(const char* label) {
+  const float column = 0.42f * ImGui::GetWindowWidth();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
-  ImGui::SameLine(0.42f * ImGui::GetWindowWidth());
+  const float end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
+  if (end + ImGui::GetStyle().ItemInnerSpacing.x <= column) ImGui::SameLine(column);
   ImGui::SetNextItemWidth(-1);
 }
 
@@ -61,8 +63,9 @@ void Widgets::remember(WidgetItem::Kind kind, const char* label, std::string val
   if (!reveal_.empty() && sameText(reveal_, label)) ImGui::SetScrollHereY(0.5f);
 }
 
-bool Widgets::section(const char* title) {
-  const bool open = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+bool Widgets::section(const char* title, bool begins) {
+  const ImGuiTreeNodeFlags flags = begins ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+  const bool open = ImGui::CollapsingHeader(title, flags);
   remember(WidgetItem::Kind::kButton, title, open ? "open" : "closed");
   if (ImGui::IsItemToggledOpen()) changed(title, std::nullopt);
   return open;

@@ -1,0 +1,92 @@
+/// References, errors against them, and duels; bookmarks and recent files.
+#include "ui/viewer/viewer.h"
+
+#include <chrono>
+#include <ctime>
+
+namespace cellcut {
+namespace {
+
+template <class T>
+bool isReady(const std::future<T>& future) {
+  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace
+
+void Viewer::takeReference() {
+  std::optional<Reference> taken = maker_.take();
+  if (!maker_.problem().empty()) problem_ = maker_.problem();
+  if (isReady(loadingReference_)) guarded([&] { taken = loadingReference_.get(); });
+  if (!taken) return;
+  useReference(std::move(*taken));
+}
+
+void Viewer::useReference(Reference reference) {
+  reference_ = std::move(reference);
+  convergence_.restart(convergence_.run().name);
+  secondConvergence_.restart(secondConvergence_.run().name);
+  overlayPasses_ = 0;  // the overlay of errors shows others now
+  if (reference_.passes == 0 && !referenceFits()) {
+    problem_ = "the reference has " + std::to_string(reference_.picture->width()) + " x " +
+               std::to_string(reference_.picture->height()) + " pixels, the rendering " +
+               std::to_string(applied_.settings.width) + " x " + std::to_string(applied_.settings.height);
+  }
+}
+
+void Viewer::toggleReference() {
+  if (!maker_.busy()) return maker_.start(applied_, static_cast<std::uint64_t>(state_.referencePasses));
+  if (std::optional<Reference> made = maker_.take(true)) useReference(std::move(*made));
+}
+
+void Viewer::measure() {
+  convergence_.update();
+  secondConvergence_.update();
+  second_ = duel_ ? duel_->second() : nullptr;
+  if (second_ && second_ != secondShown_ && !second_->radiance->empty()) {
+    view_.setImage(ImageSlot::kB, *second_->radiance);
+    if (!stored_) state_.display.split = 0.5f;
+    stored_ = true;
+    secondShown_ = second_;
+  }
+  const std::shared_ptr<const Snapshot> first = session_.snapshot();
+  if (!referenceFits() || first->generation < generation_) return;
+  const bool resting = duel_ ? duel_->finished() : session_.atRest();
+  convergence_.offer(first, reference_.picture, resting);
+  if (second_ && second_->generation >= duel_->generation()) {
+    secondConvergence_.offer(second_, reference_.picture, duel_->finished());
+  }
+}
+
+void Viewer::endDuel() {
+  if (!duel_) return;
+  duel_.reset();
+  second_.reset();
+  secondShown_.reset();
+  view_.clearImage(ImageSlot::kB);
+  stored_ = false;
+}
+
+void Viewer::saveCsv() {
+  std::vector<ConvergenceRun> runs{convergence_.run()};
+  if (duel_) runs.push_back(secondConvergence_.run());
+  runs.insert(runs.end(), keptRuns_.begin(), keptRuns_.end());
+  const std::string text = toCsv(runs);
+  const std::filesystem::path file = options_.saveFolder / ("cellcut-" + timeStamp() + ".csv");
+  writeFileAtomically(file, std::as_bytes(std::span(text)));
+  problem_ = "saved " + file.string();
+}
+
+void Viewer::keepView() {
+  state_.bookmarks[state_.chosen] = pose();
+}
+
+void Viewer::recallView() {
+  if (state_.bookmarks[state_.chosen]) setPose(*state_.bookmarks[state_.chosen]);
+}
+
+void Viewer::openRecent() {
+  if (state_.chosen < recent_.list().size()) open(recent_.list()[state_.chosen]);
+}
+
+}  // namespace cellcut
