@@ -70,7 +70,7 @@ class CellTable {
   /// The cell's cut if it was made.
   const Cut* find(const CellCoordinates& cell) const;
 
-  /// Calls `visit` for each cell that was made, in no order. Not while cells are being made.
+  /// Calls `visit` for each cell that was made, in no order; those that are being made meanwhile may be left out.
   void forEach(const std::function<void(const CellCoordinates&, const Cut&)>& visit) const;
   std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 

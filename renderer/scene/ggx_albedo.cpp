@@ -67,7 +67,7 @@ const Table& theTable() {
 }  // namespace
 
 GgxAlbedo::GgxAlbedo(float roughness) {
-  const float at = std::clamp(roughness, 0.0f, 1.0f) * kRows;
+  const float at = roughness > 0 ? std::min(roughness, 1.0f) * kRows : 0.0f;
   row_ = std::min(static_cast<int>(at), kRows - 1);
   between_ = at - static_cast<float>(row_);
 }

@@ -171,9 +171,13 @@ void SessionDriver::answer(SessionInput input) {
     if (pool) pool_ = std::move(pool);
     error_.clear();
     failed_ = false;
-    if (again) startAgain();
-    // A picture that goes on is shown under its new number at once; one that starts has nothing to show yet.
-    if (!again && picture_.film().passes() > 0) publishFilm();
+    // A picture that goes on is shown under its new number at once; one without a pass begins with its preview again,
+    // for no later pass may come to carry the number.
+    if (again || picture_.film().passes() == 0) {
+      startAgain();
+    } else {
+      publishFilm();
+    }
   } catch (const std::exception& e) {
     refuse(e.what());
   }
@@ -261,12 +265,12 @@ bool SessionDriver::renderPass(PassRenderer& passes, Film& film, Clock::time_poi
   } catch (...) {
     failure = std::current_exception();  // but the workers use what is on our stack
   }
-  awaitWorkers(graceEnd);
+  awaitWorkers(graceEnd, Inspection::kServed);
   pool_->rethrow();
   if (failure) std::rethrow_exception(failure);
   if (cancel_) return false;
   startWorkers(film.height(), [&](int row) { film.commitRow(row); });
-  awaitWorkers(graceEnd);
+  awaitWorkers(graceEnd, Inspection::kWaits);
   film.finishCommit();
   passes.keepCounts();
   return true;
@@ -277,10 +281,10 @@ void SessionDriver::startWorkers(int count, std::function<void(int)> piece) {
   pool_->start(count, std::move(piece));
 }
 
-void SessionDriver::awaitWorkers(Clock::time_point graceEnd) {
+void SessionDriver::awaitWorkers(Clock::time_point graceEnd, Inspection inspection) {
   std::unique_lock lock(mutex_);
   // An edit waits for our turn, so that what was asked to be inspected after it sees it.
-  const auto jobIsDue = [&] { return !jobs_.empty() && !pending_ && !stop_; };
+  const auto jobIsDue = [&] { return inspection == Inspection::kServed && !jobs_.empty() && !pending_ && !stop_; };
   grace_ = Clock::now() < graceEnd && !cancel_;
   while (!workersDone_) {
     if (jobIsDue()) {

@@ -59,7 +59,9 @@ class SessionDriver {
   /// Whether the pass was rendered to its end, and committed. `meanwhile` runs beside it.
   bool renderPass(PassRenderer& passes, Film& film, Clock::time_point graceEnd, const std::function<void()>& meanwhile);
   void startWorkers(int count, std::function<void(int)> piece);
-  void awaitWorkers(Clock::time_point graceEnd);
+  /// Whether jobs may run while the workers do: not while they write into the film.
+  enum class Inspection { kServed, kWaits };
+  void awaitWorkers(Clock::time_point graceEnd, Inspection inspection);
 
   double relativeError();
   std::shared_ptr<Snapshot> describe(const PassRenderer& passes, const Film& film, double seconds) const;

@@ -72,7 +72,7 @@ OverlaySource::~OverlaySource() {
 }
 
 void OverlaySource::request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
-                            std::shared_ptr<const ImageRgb> reference) {
+                            const std::shared_ptr<const ImageRgb>& reference) {
   if (busy()) return;
   pending_ = session.inspect([cache = cache_, choice, pick, reference](const SessionView& view) {
     OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};

@@ -38,7 +38,7 @@ class OverlaySource {
   /// Asks for a new one unless a request is on its way.
   /// \param reference  may be null
   void request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
-               std::shared_ptr<const ImageRgb> reference);
+               const std::shared_ptr<const ImageRgb>& reference);
   /// The rendering as layersOf(). The future is broken when there is no picture.
   std::future<LayeredImage> layers(RenderSession& session) const;
   /// What came in since the last call.

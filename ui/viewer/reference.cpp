@@ -2,6 +2,8 @@
 
 #include "ui/viewer/camera_control.h"
 
+#include <chrono>
+
 namespace cellcut {
 
 bool Reference::fits(const SessionInput& rendered) const {
@@ -46,9 +48,14 @@ std::optional<Reference> ReferenceMaker::take(bool now) {
 }
 
 void ReferenceMaker::end() {
-  if (session_)
-    ending_ = std::async(std::launch::async, [session = std::move(session_)]() mutable { session.reset(); });
+  std::erase_if(ending_, [](const auto& ending) {
+    return ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
+  if (session_) {
+    ending_.push_back(std::async(std::launch::async, [session = std::move(session_)]() mutable { session.reset(); }));
+  }
   session_.reset();
+  input_ = {};  // its scene may be gone otherwise
 }
 
 }  // namespace cellcut

@@ -4,8 +4,11 @@
 
 #include "renderer/trace/session.h"
 
+#include <future>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace cellcut {
 
@@ -33,8 +36,8 @@ class ReferenceMaker {
   std::uint64_t passes() const { return session_ ? session_->snapshot()->passes : 0; }
   /// The reference when it is done. \param now  as far as it is
   std::optional<Reference> take(bool now = false);
-  /// What went wrong, for a person.
-  const std::string& problem() const { return problem_; }
+  /// What went wrong, for a person; told once.
+  std::string takeProblem() { return std::exchange(problem_, {}); }
 
  private:
   void end();
@@ -43,7 +46,7 @@ class ReferenceMaker {
   SessionInput input_;
   std::uint64_t wanted_ = 0;
   std::string problem_;
-  std::future<void> ending_;  ///< of a session that may be building a scene still
+  std::vector<std::future<void>> ending_;  ///< sessions that may be building a scene still
   std::unique_ptr<RenderSession> session_;
 };
 

@@ -101,7 +101,7 @@ float ScriptPlayer::number(const ScriptAction& action, std::size_t word) const {
 
 WidgetItem ScriptPlayer::item(const ScriptAction& action, Stage& stage, const std::string& label) const {
   const auto start = std::chrono::steady_clock::now();
-  while (!stage.viewer.widgets().find(label) && !stage.viewer.settled()) {
+  while (!stage.viewer.widgets().find(label) && !stage.viewer.settled() && !stage.viewer.panelsHeld()) {
     frames(stage, 1);
     if (std::chrono::steady_clock::now() - start > kLongestWait) fail(action, "waited for ten minutes");
     stage.window.waitEvents(0.1);
@@ -138,6 +138,22 @@ void ScriptPlayer::frames(Stage& stage, int count) const {
     stage.viewer.frame(kFrameSeconds);
   }
 }
+
+namespace {
+
+/// A widget stays where it is from when it is found to when it has been clicked.
+class StillPanels {
+ public:
+  explicit StillPanels(Viewer& viewer) : viewer_(viewer) { viewer_.holdPanels(true); }
+  ~StillPanels() { viewer_.holdPanels(false); }
+  StillPanels(const StillPanels&) = delete;
+  StillPanels& operator=(const StillPanels&) = delete;
+
+ private:
+  Viewer& viewer_;
+};
+
+}  // namespace
 
 void ScriptPlayer::clickAt(Stage& stage, Vec2 position, MouseButton button) const {
   stage.window.post(MouseMove{position});
@@ -264,9 +280,15 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
     stage.window.resize({static_cast<int>(size.x), static_cast<int>(size.y)});
     frames(stage, 6);
   } else if (words[0] == "click") {
+    item(action, stage, words[1]);  // waits for one that is looked up still
+    const StillPanels still(stage.viewer);
+    frames(stage, 1);
     const WidgetItem target = item(action, stage, words[1]);
     clickAt(stage, 0.5f * (target.lower + target.upper));
   } else if (words[0] == "set") {
+    item(action, stage, words[1]);
+    const StillPanels still(stage.viewer);
+    frames(stage, 1);
     set(action, stage);
   } else if (words[0] == "drag") {
     const MouseButton button = words[1] == "right"    ? MouseButton::kRight

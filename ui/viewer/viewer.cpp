@@ -93,7 +93,8 @@ bool Viewer::atRest() const {
     return false;
   }
   // The last samples are measured too.
-  const bool measured = !referenceFits() || snapshot_->preview || convergence_.measured() >= snapshot_->passes;
+  const bool measured = !referenceFits() || snapshot_->preview || !snapshot_->error.empty() ||
+                        convergence_.measured() >= snapshot_->passes;
   return settled() && measured;
 }
 
@@ -130,6 +131,9 @@ void Viewer::takeScene() {
     state_.settings.shownLights.reset();
     state_.bookmarks = {};
     state_.pick.reset();
+    state_.selectedCluster.reset();
+    state_.selectedLight = 0;
+    pointedBefore_.reset();
     recent_.add(options_.file);
     pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
     window_.setTitle("cellcut: " + options_.file.filename().string());
@@ -151,7 +155,15 @@ void Viewer::takeNews() {
     if (!snapshot_->error.empty()) problem_ = snapshot_->error;
     if (!snapshot_->radiance->empty()) view_.setImage(ImageSlot::kA, *snapshot_->radiance);
   }
-  if (std::optional<OverlayPicture> picture = overlays_.take()) {
+  // What is new may move the panels: not while a person presses something there.
+  if (panelsHeld_ || ImGui::IsAnyItemActive()) return;
+  std::optional<OverlayPicture> picture;
+  guarded([&] {
+    picture =
+        OverlayPicture{.generation = snapshot_->generation};  // stands for one that failed: it is not asked for again
+    picture = overlays_.take();
+  });
+  if (picture) {
     overlay_ = std::move(picture);
     overlayDrawn_ = false;
   }
@@ -312,7 +324,9 @@ void Viewer::run(ViewerCommand command) {
 
 void Viewer::showLights(bool solo) {
   const std::optional<std::size_t> row = state_.selectedCluster ? state_.selectedCluster : pointedBefore_;
-  if (!row || !overlay_ || !overlay_->inspection || *row >= overlay_->inspection->clusters.size()) return;
+  if (!row || !state_.pick || !overlayIsOfScene() || !overlay_->inspection ||
+      *row >= overlay_->inspection->clusters.size())
+    return;
   std::span<const LightId> lights = overlay_->inspection->clusters[*row].lights;
   if (row == state_.selectedCluster && state_.selectedLight > 0) {
     lights = lights.subspan(static_cast<std::size_t>(state_.selectedLight) - 1, 1);
@@ -320,6 +334,7 @@ void Viewer::showLights(bool solo) {
   std::vector<bool> shown(overlay_->lightCount, !solo);
   // Muting goes on from what is shown; solo begins anew.
   if (!solo && state_.settings.shownLights) shown = state_.settings.shownLights->shown();
+  shown.resize(overlay_->lightCount, true);
   for (const LightId light : lights) shown[static_cast<std::size_t>(light)] = solo;
   state_.settings.shownLights = std::make_shared<const LightMask>(std::move(shown));
 }
@@ -351,13 +366,14 @@ void Viewer::applyEdits() {
   input.noiseLimit = state_.noiseLimit;
   input.paused = state_.paused;
   edited_ = false;
-  if (sameInput(input, applied_) && state_.duel == (duel_ != nullptr) && state_.opponent == opponent_) return;
+  const bool newScene = applied_.scene != input.scene;
+  const bool otherDuel = state_.duel != (duel_ != nullptr) || (state_.duel && state_.opponent != opponent_);
+  if (sameInput(input, applied_) && !otherDuel) return;
   const RenderSettings& before = applied_.settings;
   if (applied_.scene && (input.settings.width != before.width || input.settings.height != before.height)) {
     state_.pick.reset();  // that pixel shows something else now
   }
-  if (!applied_.scene || applied_.scene != input.scene || !sameSettings(before, input.settings) ||
-      (duel_ != nullptr) != state_.duel || state_.opponent != opponent_) {
+  if (!applied_.scene || newScene || !sameSettings(before, input.settings) || otherDuel) {
     convergence_.restart(std::string(nameOf(input.settings.strategy)));
     secondConvergence_.restart(std::string(nameOf(state_.opponent)));
   }
@@ -365,10 +381,11 @@ void Viewer::applyEdits() {
   opponent_ = state_.opponent;
   if (!state_.duel) endDuel();
   if (state_.duel) {
-    if (!duel_) duel_ = std::make_unique<Duel>([this] { window_.wake(); });
+    if (!duel_) duel_ = std::make_unique<Duel>([&window = window_] { window.wake(); });
     input = duel_->edit(input, state_.opponent);
   }
   generation_ = session_.edit(std::move(input));
+  if (newScene) sceneGeneration_ = generation_;
 }
 
 bool Viewer::overlayWanted() const {

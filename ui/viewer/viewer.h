@@ -63,6 +63,9 @@ class Viewer {
   void open(const std::filesystem::path& file);
 
   const Widgets& widgets() const { return shown_; }
+  /// What is looked up in the background waits until it is let in: panels do not move meanwhile.
+  void holdPanels(bool hold) { panelsHeld_ = hold; }
+  bool panelsHeld() const { return panelsHeld_; }
   /// Scrolls a panel to the widget of that label, in the next frame.
   void reveal(std::string label) { reveal_ = std::move(label); }
   ViewerState& state() { return state_; }
@@ -97,6 +100,10 @@ class Viewer {
   void takeReference();
   void measure();
   void endDuel();
+  /// Whether what the inspector shows is of the scene that is rendered, and not of one before.
+  bool overlayIsOfScene() const {
+    return overlay_ && scene_ == applied_.scene && overlay_->generation >= sceneGeneration_;
+  }
   bool referenceFits() const { return reference_.fits(applied_); }
   void useReference(Reference reference);
   void toggleReference();
@@ -137,6 +144,7 @@ class Viewer {
   ViewerState state_;
   SessionInput applied_;
   std::uint64_t generation_ = 0;
+  std::uint64_t sceneGeneration_ = 0;  ///< of the edit that brought the scene
   bool edited_ = true;
   CameraPose pose_;
   Drag drags_[kMouseButtonCount];
@@ -149,6 +157,7 @@ class Viewer {
   std::unique_ptr<GlFramebuffer> framebuffer_;
   Widgets shown_;
   std::string reveal_;
+  bool panelsHeld_ = false;
   std::vector<InputEvent> heldEvents_;  ///< while there is no area to draw on
   bool minimised_ = false;
   int glFailures_ = 0;  ///< in a row
@@ -177,8 +186,9 @@ class Viewer {
   std::shared_ptr<const Snapshot> secondShown_;  ///< the one that lies in the picture
   ReferenceMaker maker_;
   std::unique_ptr<Duel> duel_;
-  Strategy opponent_ = Strategy::kPower;  ///< as applied
-  std::future<std::string> saving_;       ///< what to say then
+  Strategy opponent_ = Strategy::kPower;   ///< as applied
+  std::vector<std::future<void>> ending_;  ///< duels whose session may be building a scene still
+  std::future<std::string> saving_;        ///< what to say then
   OverlaySource overlays_;
   RenderSession session_;  ///< last: its threads stop before anything that they call goes
 };

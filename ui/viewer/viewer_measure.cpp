@@ -16,7 +16,7 @@ bool isReady(const std::future<T>& future) {
 
 void Viewer::takeReference() {
   std::optional<Reference> taken = maker_.take();
-  if (!maker_.problem().empty()) problem_ = maker_.problem();
+  if (std::string problem = maker_.takeProblem(); !problem.empty()) problem_ = std::move(problem);
   if (isReady(loadingReference_)) guarded([&] { taken = loadingReference_.get(); });
   if (!taken) return;
   useReference(std::move(*taken));
@@ -40,8 +40,10 @@ void Viewer::toggleReference() {
 }
 
 void Viewer::measure() {
-  convergence_.update();
-  secondConvergence_.update();
+  guarded([this] {
+    convergence_.update();
+    secondConvergence_.update();
+  });
   second_ = duel_ ? duel_->second() : nullptr;
   if (second_ && second_ != secondShown_ && !second_->radiance->empty()) {
     view_.setImage(ImageSlot::kB, *second_->radiance);
@@ -50,16 +52,20 @@ void Viewer::measure() {
     secondShown_ = second_;
   }
   const std::shared_ptr<const Snapshot> first = session_.snapshot();
-  if (!referenceFits() || first->generation < generation_) return;
-  const bool resting = duel_ ? duel_->finished() : session_.atRest();
+  // A snapshot with an error shows the picture before the edit that was refused.
+  if (!referenceFits() || first->generation < generation_ || !first->error.empty()) return;
+  const bool resting = duel_ && !state_.paused ? duel_->finished() : session_.atRest();
   convergence_.offer(first, reference_.picture, resting);
-  if (second_ && second_->generation >= duel_->generation()) {
+  if (second_ && second_->generation >= duel_->generation() && second_->error.empty()) {
     secondConvergence_.offer(second_, reference_.picture, duel_->finished());
   }
 }
 
 void Viewer::endDuel() {
   if (!duel_) return;
+  // Its session may be building a scene: a person does not wait for that.
+  std::erase_if(ending_, [](const auto& ending) { return isReady(ending); });
+  ending_.push_back(std::async(std::launch::async, [duel = std::move(duel_)]() mutable { duel.reset(); }));
   duel_.reset();
   second_.reset();
   secondShown_.reset();

@@ -1,7 +1,7 @@
 // The verb `measure`, on scenes so small that its runs take milliseconds.
 #include "app/command_line.h"
-#include "app/measure_reference.h"
-#include "app/measure_summary.h"
+#include "app/measure/reference.h"
+#include "app/measure/summary.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 #include "tests/support/temporary_directory.h"

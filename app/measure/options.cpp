@@ -1,4 +1,4 @@
-#include "app/measure_options.h"
+#include "app/measure/options.h"
 
 #include "app/numbers.h"
 #include "renderer/base/error.h"

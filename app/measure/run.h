@@ -1,4 +1,4 @@
-/// \file measure_run.h
+/// \file run.h
 /// One rendering, with its error against the reference at passes 1, 2, 4, 8, … and the last.
 #pragma once
 

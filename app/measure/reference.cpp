@@ -1,7 +1,7 @@
-#include "app/measure_reference.h"
+#include "app/measure/reference.h"
 
+#include "app/measure/scene_hash.h"
 #include "app/output.h"
-#include "app/scene_hash.h"
 #include "app/stopwatch.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"

@@ -1,4 +1,4 @@
-#include "app/measure_summary.h"
+#include "app/measure/summary.h"
 
 #include "renderer/measure/convergence.h"
 

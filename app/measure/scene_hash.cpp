@@ -1,4 +1,4 @@
-#include "app/scene_hash.h"
+#include "app/measure/scene_hash.h"
 
 #include <cstring>
 #include <initializer_list>

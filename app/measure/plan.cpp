@@ -1,4 +1,4 @@
-#include "app/measure_plan.h"
+#include "app/measure/plan.h"
 
 #include <algorithm>
 #include <cassert>

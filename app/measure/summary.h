@@ -1,8 +1,8 @@
-/// \file measure_summary.h
+/// \file summary.h
 /// The runs of each configuration taken together: values with intervals.
 #pragma once
 
-#include "app/measure_results.h"
+#include "app/measure/results.h"
 #include "renderer/measure/intervals.h"
 
 #include <string>

@@ -1,6 +1,6 @@
-#include "app/measure_results.h"
+#include "app/measure/results.h"
 
-#include "app/measure_summary.h"
+#include "app/measure/summary.h"
 #include "app/report.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"

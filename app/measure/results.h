@@ -1,10 +1,10 @@
-/// \file measure_results.h
+/// \file results.h
 /// What `measure` has measured: kept in results.json run by run, so that it can go on where it was stopped.
 #pragma once
 
-#include "app/measure_plan.h"
-#include "app/measure_reference.h"
-#include "app/measure_run.h"
+#include "app/measure/plan.h"
+#include "app/measure/reference.h"
+#include "app/measure/run.h"
 
 #include <cstdint>
 #include <filesystem>

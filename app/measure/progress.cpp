@@ -1,4 +1,4 @@
-#include "app/measure_progress.h"
+#include "app/measure/progress.h"
 
 #include "app/progress.h"
 

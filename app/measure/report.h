@@ -1,4 +1,4 @@
-/// \file measure_report.h
+/// \file report.h
 /// The page that shows a measurement: one file that needs nothing else.
 #pragma once
 

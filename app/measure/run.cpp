@@ -1,4 +1,4 @@
-#include "app/measure_run.h"
+#include "app/measure/run.h"
 
 #include "app/stopwatch.h"
 #include "renderer/trace/renderer.h"

@@ -1,8 +1,8 @@
-/// \file measure_options.h
+/// \file options.h
 /// The command line of `measure`.
 #pragma once
 
-#include "app/measure_plan.h"
+#include "app/measure/plan.h"
 
 namespace cellcut {
 

@@ -1,4 +1,4 @@
-#include "app/measure_report.h"
+#include "app/measure/report.h"
 
 #include "renderer/base/image_io.h"
 #include "renderer/measure/flip.h"

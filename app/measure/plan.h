@@ -1,4 +1,4 @@
-/// \file measure_plan.h
+/// \file plan.h
 /// What `measure` is asked for, and the list of renderings that follows from it.
 #pragma once
 

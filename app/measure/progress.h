@@ -1,4 +1,4 @@
-/// \file measure_progress.h
+/// \file progress.h
 /// What a person sees while `measure` works.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// \file measure_reference.h
+/// \file reference.h
 /// The picture that errors are measured against, made once and kept by the content that it shows.
 ///
 /// It is the mean of batches that are rendered with seeds of their own by `cell-cut`, which is unbiased like all
