@@ -33,9 +33,9 @@ CellCutSampler::CellCutSampler(const Lights& lights, const SamplerSettings& sett
       grid_(pilot.empty() ? lights.scene().bounds : centralBox(pilot), settings.gridResolution),
       cells_(settings.cellMemory) {}
 
-Cut CellCutSampler::makeCutTimed(const Region& region) const {
+Cut CellCutSampler::makeCutTimed(const Region& region, const CutSettings& settings) const {
   const Stopwatch stopwatch(makeNanoseconds_);
-  return makeCut(trees_, region, {settings_.threshold, settings_.maxCut});
+  return makeCut(trees_, region, settings);
 }
 
 FarChoice CellCutSampler::makeFarChoice(const Cut& cut, std::size_t facing) const {
@@ -48,14 +48,12 @@ auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
   const std::optional<CellCoordinates> cell = grid_.cellOf(point.p);
   // Past the range of cells every point is a cell of its own.
   const std::size_t facing = facingOf(point.n);
-  const auto useOwn = [&](const Region& region) {
-    const Cut own = makeCutTimed(region);
-    return use(own, makeFarChoice(own, facing));
-  };
-  if (!cell) return useOwn({point.p, 0});
+  const auto useOwn = [&](const Cut& own) { return use(own, makeFarChoice(own, facing)); };
+  if (!cell) return useOwn(makeCutTimed({point.p, 0}, {settings_.threshold, settings_.maxCut}));
+  const auto makeCell = [&] { return makeCutTimed(grid_.region(*cell), cutSettingsOf(settings_, grid_, *cell)); };
   const Cut* cut = cells_.find(*cell);
-  if (!cut) cut = cells_.findOrMake(*cell, [&] { return makeCutTimed(grid_.region(*cell)); });
-  if (!cut) return useOwn(grid_.region(*cell));
+  if (!cut) cut = cells_.findOrMake(*cell, makeCell);
+  if (!cut) return useOwn(makeCell());
   if (cut->farCount() == 0) return use(*cut, FarChoice());
   if (const FarChoice* far = cut->farChoice(facing)) return use(*cut, *far);
   FarChoice made = makeFarChoice(*cut, facing);

@@ -27,7 +27,7 @@ class CellCutSampler final : public LightSampler {
   template <class Use>
   auto withCut(const ShadingPoint& point, const Use& use) const;
   FarChoice makeFarChoice(const Cut& cut, std::size_t facing) const;
-  Cut makeCutTimed(const Region& region) const;
+  Cut makeCutTimed(const Region& region, const CutSettings& settings) const;
 
   LightTrees trees_;
   SamplerSettings settings_;

@@ -75,6 +75,17 @@ Bounds GridGeometry::box(const CellCoordinates& cell) const {
   return {corner(0), corner(1)};
 }
 
+bool GridGeometry::isRemote(const CellCoordinates& cell) const {
+  const int margin = std::max({resolution_.x, resolution_.y, resolution_.z}) / 4;
+  const auto outside = [&](int at, int cells) { return at < -margin || at >= cells + margin; };
+  return outside(cell.x, resolution_.x) || outside(cell.y, resolution_.y) || outside(cell.z, resolution_.z);
+}
+
+CutSettings cutSettingsOf(const SamplerSettings& settings, const GridGeometry& grid, const CellCoordinates& cell) {
+  const int most = grid.isRemote(cell) ? std::max(2, settings.maxCut / 8) : settings.maxCut;
+  return {settings.threshold, most};
+}
+
 Bounds centralBox(std::span<const Vec3> points) {
   Bounds box;
   if (points.empty()) return box;

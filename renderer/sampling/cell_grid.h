@@ -35,6 +35,9 @@ class GridGeometry {
   Region region(const CellCoordinates& cell) const;
   /// The cube itself, its corners rounded to floats. Neighbours share their corners exactly.
   Bounds box(const CellCoordinates& cell) const;
+  /// Whether a cell lies farther from the box than a quarter of its longest axis: bounces of light reach many such
+  /// cells, and each seldom.
+  bool isRemote(const CellCoordinates& cell) const;
   double cellSize() const { return size_; }
   /// Cells that cover the box, per axis.
   glm::ivec3 resolution() const { return resolution_; }
@@ -45,6 +48,10 @@ class GridGeometry {
   double inverseSize_;
   glm::ivec3 resolution_;
 };
+
+/// What the cut of a cell is found with. A remote cell gets an eighth of the clusters: in a building that is seen from one
+/// of its rooms, light bounces through ten times as many cells as are seen, and their cuts are what fills the memory.
+CutSettings cutSettingsOf(const SamplerSettings& settings, const GridGeometry& grid, const CellCoordinates& cell);
 
 /// Corners of the middle of a cloud of points: per axis from its 5 % to its 95 % quantile, so that the horizon seen
 /// from a house does not stretch the house's cells. Empty for no points.

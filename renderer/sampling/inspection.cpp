@@ -29,8 +29,13 @@ const Cut* CutInspector::find(const CellCoordinates& cell) const {
   return strategy_.cells ? strategy_.cells->find(cell) : nullptr;
 }
 
-Cut CutInspector::find(const Region& region) const {
-  return makeCut(*strategy_.trees, region, {strategy_.settings.threshold, strategy_.settings.maxCut});
+Cut CutInspector::cutFor(const CellCoordinates& cell) const {
+  return makeCut(*strategy_.trees, strategy_.grid->region(cell),
+                 cutSettingsOf(strategy_.settings, *strategy_.grid, cell));
+}
+
+Cut CutInspector::cutFor(const Vec3& p) const {
+  return makeCut(*strategy_.trees, {p, 0}, {strategy_.settings.threshold, strategy_.settings.maxCut});
 }
 
 void CutInspector::forEachCell(const std::function<void(const CellCoordinates&, const Cut&)>& visit) const {
@@ -47,11 +52,11 @@ CutSummary CutInspector::summary(const Cut& cut) const {
 }
 
 CutSummary CutInspector::summaryOfPoint(const Vec3& p) const {
-  return summary(find({p, 0}));
+  return summary(cutFor(p));
 }
 
 CutSummary CutInspector::summaryOfCell(const CellCoordinates& cell) const {
-  return summary(find(strategy_.grid->region(cell)));
+  return summary(cutFor(cell));
 }
 
 std::vector<ClusterInspection> CutInspector::clusters(const Cut& cut, const ShadingPoint& point) const {
@@ -88,7 +93,7 @@ CutInspection CutInspector::inspect(const ShadingPoint& point) const {
   CutInspection result;
   result.cell = cellOf(point.p);
   if (!result.cell) {
-    result.clusters = clusters(find({point.p, 0}), point);
+    result.clusters = clusters(cutFor(point.p), point);
     return result;
   }
   result.cellBox = strategy_.grid->box(*result.cell);
@@ -97,7 +102,7 @@ CutInspection CutInspector::inspect(const ShadingPoint& point) const {
     result.visits = cut->visits();
     result.clusters = clusters(*cut, point);
   } else {
-    result.clusters = clusters(find(strategy_.grid->region(*result.cell)), point);
+    result.clusters = clusters(cutFor(*result.cell), point);
   }
   return result;
 }

@@ -72,7 +72,8 @@ class CutInspector {
  private:
   explicit CutInspector(const CutStrategy& strategy) : strategy_(strategy) {}
   const LightTree& tree(bool distant) const;
-  Cut find(const Region& region) const;
+  Cut cutFor(const CellCoordinates& cell) const;
+  Cut cutFor(const Vec3& p) const;
   std::vector<ClusterInspection> clusters(const Cut& cut, const ShadingPoint& point) const;
 
   CutStrategy strategy_;
