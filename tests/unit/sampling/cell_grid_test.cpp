@@ -27,6 +27,25 @@ double distance(const Vec3& a, const Vec3& b) {
 }
 
 // Cells of 3.8 floats: of four in a row the farthest is 2 floats from the rounded centre, and half of the cell is 1.9.
+TEST(GridGeometry, CellsFarFromWhatIsSeenAreRemoteAndHaveSmallCuts) {
+  Bounds box;
+  box.lower = Vec3(0);
+  box.upper = Vec3(16, 8, 8);
+  const GridGeometry grid(box, 16);
+  const SamplerSettings settings{.maxCut = 1024};
+  // Up to a quarter of the longest axis outside of the box on any axis.
+  for (const CellCoordinates& near :
+       {CellCoordinates{0, 0, 0}, CellCoordinates{-4, 3, 3}, CellCoordinates{19, 11, -4}}) {
+    EXPECT_FALSE(grid.isRemote(near));
+    EXPECT_EQ(cutSettingsOf(settings, grid, near).maxSize, 1024);
+  }
+  for (const CellCoordinates& far : {CellCoordinates{-5, 3, 3}, CellCoordinates{20, 3, 3}, CellCoordinates{3, 12, 3}}) {
+    EXPECT_TRUE(grid.isRemote(far));
+    EXPECT_EQ(cutSettingsOf(settings, grid, far).maxSize, 128);
+  }
+  EXPECT_EQ(cutSettingsOf({.maxCut = 2}, grid, {100, 0, 0}).maxSize, 2);
+}
+
 TEST(GridGeometry, CellsHoldTheirPointsWhereFloatsAreCoarse) {
   Bounds box;
   box.add(Vec3(5000.013f, 5000.011f, 5000.017f));

@@ -157,7 +157,7 @@ TEST(CutInspector, VisitsAreCountedOnlyWhereAskedFor) {
 }
 
 TEST(CutInspector, SummaryIsThatOfTheClusters) {
-  const CellCutStage s({.maxCut = 50});
+  const CellCutStage s({.maxCut = 400});
   s.sampler->sample(s.point, 0.5);
   const auto inspection = s.inspector.inspect(s.point);
   const CutSummary summary = s.inspector.summary(*s.inspector.find(*inspection.cell));
@@ -170,7 +170,7 @@ TEST(CutInspector, SummaryIsThatOfTheClusters) {
   EXPECT_EQ(summary.size, inspection.clusters.size());
   EXPECT_EQ(summary.estimate, estimate);
   EXPECT_EQ(summary.depth, depth);
-  EXPECT_GT(summary.depth, 3);  // 300 lights in 50 clusters
+  EXPECT_GT(summary.depth, 3);  // 300 lights in 50 clusters at least: the cell is a remote one
 }
 
 // One point light is one cluster whose box is a point: its estimate for a point is its irradiance of a surface that
