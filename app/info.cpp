@@ -1,7 +1,7 @@
 /// The verb `info`: what is in a scene, as JSON.
 #include "app/command_line.h"
-#include "app/report.h"
 #include "app/options.h"
+#include "app/report.h"
 #include "app/verbs.h"
 #include "renderer/lights/light_bounds.h"
 #include "renderer/scene/load_scene.h"
