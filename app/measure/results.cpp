@@ -187,8 +187,8 @@ Json frontsJson(const MeasureResults& results, const std::vector<SummaryRow>& ro
 
 void takeOverCase(MeasureResults& results, const Json& json, const std::string& file) {
   const auto& cases = results.plan.cases;
-  const auto same =
-      std::find_if(cases.begin(), cases.end(), [&](const MeasureCase& c) { return c.name == json.at("name"); });
+  const auto name = json.at("name").get<std::string>();
+  const auto same = std::find_if(cases.begin(), cases.end(), [&](const MeasureCase& c) { return c.name == name; });
   if (same == cases.end()) return;
   CaseRecord& record = results.cases[static_cast<std::size_t>(same - cases.begin())];
   if (json.at("scene_hash") != hexOf(record.sceneHash)) {
