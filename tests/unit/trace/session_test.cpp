@@ -6,6 +6,7 @@
 #include "tests/support/own_threads.h"
 #include "tests/support/strategies.h"
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -300,6 +301,24 @@ TEST_F(Session, ShowsACoarsePictureFirst) {
   small.settings.width = 13;
   small.settings.height = 10;
   EXPECT_EQ(differentPixels(*seen[0]->radiance, renderHeadless(small, 1).picture), 0u);
+}
+
+TEST_F(Session, APauseBeforeTheFirstPassIsAnswered) {
+  SessionInput slow = endless();
+  slow.preview = true;
+  slow.settings.width = slow.settings.height = 300;
+  slow.settings.maxDepth = 1;  // the preview is quick, a pass takes seconds
+  RenderSession session;
+  const std::uint64_t begun = session.edit(slow);
+  // Its preview is there, its first pass under way.
+  while (session.snapshot()->generation < begun || session.state() != SessionState::kRendering) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(session.snapshot()->preview);
+  slow.paused = true;
+  const std::uint64_t paused = session.edit(slow);
+  session.waitIdle();
+  EXPECT_EQ(session.snapshot()->generation, paused);
 }
 
 TEST_F(Session, PausesAfterThePreviewStepsAndResumesWhereItWas) {
