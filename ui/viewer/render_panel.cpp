@@ -46,7 +46,8 @@ void limitField(Widgets& widgets, const char* label, std::optional<T>& limit, co
 
 /// A share of the work until the nearest limit, and how long it still takes.
 std::string remaining(const ViewerState& state, const Snapshot& s) {
-  if (s.passes == 0 || s.seconds <= 0) return "";
+  if (!state.passLimit && !state.timeLimit && !state.noiseLimit) return "";
+  if (s.passes == 0 || s.seconds <= 0) return "unknown yet";  // keeps its line: nothing moves with the first pass
   double least = std::numeric_limits<double>::infinity();
   const double perPass = s.seconds / static_cast<double>(s.passes);
   if (state.passLimit) {
@@ -57,7 +58,7 @@ std::string remaining(const ViewerState& state, const Snapshot& s) {
     const double ratio = s.relativeError / *state.noiseLimit;
     least = std::min(least, s.seconds * (ratio * ratio - 1));
   }
-  if (!std::isfinite(least)) return "";
+  if (!std::isfinite(least)) return "unknown yet";
   return least <= 0 ? "done" : formatted("about %.0f s left", least);
 }
 

@@ -12,6 +12,8 @@ namespace {
 /// What a frame of a script takes for animations: the same picture on any machine.
 constexpr double kFrameSeconds = 1.0 / 60;
 constexpr std::chrono::minutes kLongestWait{10};
+/// More than panels take to come to rest; what still moves then (a row that scrolls) is taken where it is.
+constexpr int kMostUnsettledFrames = 10;
 
 struct Verb {
   std::string_view name;
@@ -110,10 +112,22 @@ WidgetItem ScriptPlayer::item(const ScriptAction& action, Stage& stage, const st
   if (found && !found->visible) {
     stage.viewer.reveal(label);
     frames(stage, 2);
-    found = stage.viewer.widgets().find(label);
   }
-  if (!found) failMissing(action, stage, label);
-  return *found;
+  return still(action, stage, label);
+}
+
+WidgetItem ScriptPlayer::still(const ScriptAction& action, Stage& stage, const std::string& label) const {
+  std::optional<WidgetItem> before;
+  // A panel whose content has just grown takes some frames until its scroll bar, its wrapped lines and its scrolling
+  // agree.
+  for (int i = 0; i < kMostUnsettledFrames; ++i) {
+    const WidgetItem* found = stage.viewer.widgets().find(label);
+    if (!found) failMissing(action, stage, label);
+    if (before && before->lower == found->lower && before->upper == found->upper) break;
+    before = *found;
+    frames(stage, 1);
+  }
+  return *before;
 }
 
 void ScriptPlayer::failMissing(const ScriptAction& action, const Stage& stage, const std::string& label) const {
@@ -281,13 +295,13 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
     frames(stage, 6);
   } else if (words[0] == "click") {
     item(action, stage, words[1]);  // waits for one that is looked up still
-    const StillPanels still(stage.viewer);
+    const StillPanels hold(stage.viewer);
     frames(stage, 1);
     const WidgetItem target = item(action, stage, words[1]);
     clickAt(stage, 0.5f * (target.lower + target.upper));
   } else if (words[0] == "set") {
     item(action, stage, words[1]);
-    const StillPanels still(stage.viewer);
+    const StillPanels hold(stage.viewer);
     frames(stage, 1);
     set(action, stage);
   } else if (words[0] == "drag") {

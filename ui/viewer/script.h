@@ -64,6 +64,8 @@ class ScriptPlayer {
   void paste(const ScriptAction& action, Stage& stage) const;
   /// Where it can be clicked: waits for it and scrolls to it.
   WidgetItem item(const ScriptAction& action, Stage& stage, const std::string& label) const;
+  /// The widget once it stays where it is.
+  WidgetItem still(const ScriptAction& action, Stage& stage, const std::string& label) const;
   [[noreturn]] void failMissing(const ScriptAction& action, const Stage& stage, const std::string& label) const;
   float number(const ScriptAction& action, std::size_t word) const;
   [[noreturn]] void fail(const ScriptAction& action, const std::string& problem) const;

@@ -146,6 +146,7 @@ void Viewer::takeNews() {
     open(file);
     if (recorder_) recorder_->pictureChangesAfter({"drop", std::filesystem::absolute(file).string()});
   }
+  if (panelsHeld_) return;
   takeScene();
   takeReference();
   if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
@@ -156,7 +157,7 @@ void Viewer::takeNews() {
     if (!snapshot_->radiance->empty()) view_.setImage(ImageSlot::kA, *snapshot_->radiance);
   }
   // What is new may move the panels: not while a person presses something there.
-  if (panelsHeld_ || ImGui::IsAnyItemActive()) return;
+  if (ImGui::IsAnyItemActive()) return;
   std::optional<OverlayPicture> picture;
   guarded([&] {
     picture =

@@ -63,7 +63,7 @@ class Viewer {
   void open(const std::filesystem::path& file);
 
   const Widgets& widgets() const { return shown_; }
-  /// What is looked up in the background waits until it is let in: panels do not move meanwhile.
+  /// News (snapshots, what is looked up, loaded scenes) wait until they are let in: panels do not move meanwhile.
   void holdPanels(bool hold) { panelsHeld_ = hold; }
   bool panelsHeld() const { return panelsHeld_; }
   /// Scrolls a panel to the widget of that label, in the next frame.
