@@ -194,17 +194,6 @@ LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf,
       firstLeaf_(firstLeaf),
       leafCountAndSides_(leafCount | (bounds.twoSided ? kTwoSided : 0)) {}
 
-Cone LightTreeNode::axes() const {
-  const float s = static_cast<float>(sinHalfO_) * (1.0f / 65535);
-  const Vec2 coded(static_cast<float>(axisX_) * (1.0f / 32767), static_cast<float>(axisY_) * (1.0f / 32767));
-  return {fromOctahedral(coded), 1 - 2 * s * s, 2 * s * safeSqrt(1 - s * s)};
-}
-
-float LightTreeNode::cosThetaE() const {
-  const float s = static_cast<float>(sinHalfE_) * (1.0f / 65535);
-  return 1 - 2 * s * s;
-}
-
 LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant)
     : leafOfLight_(bounds.size(), kNoLeaf), firstId_(firstId) {
   std::vector<BuildLight> lights;

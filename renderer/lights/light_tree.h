@@ -7,6 +7,7 @@
 /// run concurrently.
 #pragma once
 
+#include "renderer/base/octahedral.h"
 #include "renderer/lights/light_bounds.h"
 
 #include <cstdint>
@@ -51,6 +52,18 @@ class LightTreeNode {
   std::uint32_t leafCountAndSides_;
 };
 static_assert(sizeof(LightTreeNode) == 44);
+
+// Inline: every step of a descent asks for them.
+inline Cone LightTreeNode::axes() const {
+  const float s = static_cast<float>(sinHalfO_) * (1.0f / 65535);
+  const Vec2 coded(static_cast<float>(axisX_) * (1.0f / 32767), static_cast<float>(axisY_) * (1.0f / 32767));
+  return {fromOctahedral(coded), 1 - 2 * s * s, 2 * s * safeSqrt(1 - s * s)};
+}
+
+inline float LightTreeNode::cosThetaE() const {
+  const float s = static_cast<float>(sinHalfE_) * (1.0f / 65535);
+  return 1 - 2 * s * s;
+}
 
 class LightTree {
  public:

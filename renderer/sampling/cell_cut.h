@@ -18,6 +18,7 @@ class CellCutSampler final : public LightSampler {
 
   std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override;
   float pmf(const ShadingPoint& point, LightId light) const override;
+  bool usesLobe() const override { return true; }
   std::size_t bytes() const override;
   SamplerStatistics statistics() const override;
   std::optional<CutStrategy> cutStrategy() const override;

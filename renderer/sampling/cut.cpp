@@ -12,62 +12,6 @@ namespace {
 /// side that it shows vary over the cell.
 constexpr float kNearShare = 0.3f;
 
-/// A light of a cluster is taken to be no nearer than this share of the cluster's radius.
-constexpr float kLeastShare = 0.05f;
-
-/// A region that is one point, known to be one when the code is compiled: the inner loop of every descent.
-struct PointRegion {
-  const Vec3& centre;
-  static constexpr float radius = 0;
-};
-
-Vec3 centreOf(const LightTreeNode& node) {
-  return 0.5f * node.upper() + 0.5f * node.lower();
-}
-
-/// Radius around the centre as it was rounded: half the diagonal leaves out a corner by that rounding, which among
-/// lights far from the origin is more than they are apart.
-float radiusOf(const LightTreeNode& node, const Vec3& centre) {
-  return glm::length(glm::max(node.upper() - centre, centre - node.lower()));
-}
-
-/// localCluster() into `cluster`, of which only the node is set so far; false: nothing.
-template <class AnyRegion>
-inline bool estimateLocal(const LightTreeNode& node, const AnyRegion& region, Cluster& cluster) {
-  const Vec3 centre = centreOf(node);
-  const float clusterRadius = radiusOf(node, centre);
-  const Vec3 toCluster = centre - region.centre;
-  const float distance = glm::length(toCluster);
-  const float reach = (region.radius + clusterRadius) * kReachMargin;
-
-  float cosine = 1;
-  if (reach < distance) {
-    const float perDistance = 1 / distance;
-    cluster.direction = toCluster * perDistance;
-    cluster.sinThetaU = reach * perDistance;
-    cluster.cosThetaU = safeSqrt(1 - cluster.sinThetaU * cluster.sinThetaU);
-    const Cone axes = node.axes();
-    float cosTheta = -glm::dot(axes.axis, cluster.direction);
-    if (node.twoSided()) cosTheta = std::abs(cosTheta);
-    const float sinTheta = sineAbove(cosTheta);
-    const float cosPastAxes = cosSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
-    const float sinPastAxes = sinSubClamped(cosTheta, sinTheta, axes.cosTheta, axes.sinTheta);
-    cosine = cosSubClamped(cosPastAxes, sinPastAxes, cluster.cosThetaU, cluster.sinThetaU);
-    if (cosine < node.cosThetaE() - kCosineMargin) return false;
-    cosine = std::max(cosine, kCosineMargin);
-  }
-  const float rho =
-      region.radius == 0 ? clusterRadius : std::sqrt(region.radius * region.radius + clusterRadius * clusterRadius);
-  const float mean = meanDistance(distance, rho);
-  cluster.meanDistance = mean;
-  cluster.leastDistance =
-      std::max({distance - clusterRadius, static_cast<float>(region.radius), kLeastShare * clusterRadius});
-  // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
-  cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, kMaxWeight) : node.intensity();
-  if (!(cluster.estimate > 0)) cluster.estimate = std::numeric_limits<float>::min();
-  return true;
-}
-
 }  // namespace
 
 LightTrees::LightTrees(const Lights& lights)
@@ -83,28 +27,6 @@ LightTrees::LightTrees(const Lights& lights, int exponentOfUnit, std::chrono::st
 TreeStatistics LightTrees::statistics() const {
   return {local.nodes().size() + distant.nodes().size(), std::max(local.depth(), distant.depth()), buildSeconds_,
           bytes()};
-}
-
-std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region) {
-  Cluster cluster{id, false, 0, 0, 0, Vec3(0, 0, 1), -1, 0};
-  if (!estimateLocal(tree.node(id), region, cluster)) return std::nullopt;
-  return cluster;
-}
-
-Cluster distantCluster(const LightTree& tree, NodeId id) {
-  const LightTreeNode& node = tree.node(id);
-  const Cone axes = node.axes();
-  return {id, true, node.intensity(), kInfinity, kInfinity, -axes.axis, axes.cosTheta, axes.sinTheta};
-}
-
-float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n) {
-  Cluster cluster{id, false, 0, 0, 0, Vec3(0, 0, 1), -1, 0};
-  if (distant) {
-    cluster = distantCluster(tree, id);
-  } else if (!estimateLocal(tree.node(id), PointRegion{p}, cluster)) {
-    return 0;
-  }
-  return cluster.estimate * receiverCosine(glm::dot(n, cluster.direction), cluster.cosThetaU, cluster.sinThetaU);
 }
 
 namespace {

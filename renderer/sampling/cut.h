@@ -5,9 +5,8 @@
 /// section 3.
 #pragma once
 
-#include "renderer/lights/light_tree.h"
 #include "renderer/sampling/alias_table.h"
-#include "renderer/sampling/cut_weights.h"
+#include "renderer/sampling/cluster.h"
 #include "renderer/sampling/sampler_settings.h"
 
 #include <atomic>
@@ -42,32 +41,6 @@ struct CutSettings {
   float threshold;  ///< no cluster's estimate is above this share of the sum, if maxSize allows; [0, 1]
   int maxSize;      ///< most clusters in a cut, ≥ 2
 };
-
-/// A sphere that holds all points of a cell, or a single point.
-struct Region {
-  Vec3 centre;
-  float radius;
-};
-
-/// One cluster as seen from a region.
-struct Cluster {
-  NodeId node;
-  bool distant;         ///< of the distant tree
-  float estimate;       ///< of the irradiance of a surface that faces it, in the trees' unit per m²; > 0
-  float meanDistance;   ///< metres; infinite for distant clusters
-  float leastDistance;  ///< about that of the nearest lights that it may hold, metres; infinite for distant clusters
-  Vec3 direction;       ///< unit, from the region to the cluster
-  float cosThetaU, sinThetaU;  ///< all directions from the region to the cluster are within θu of `direction`
-};
-
-/// Whether and how much a node can send to a region: estimate J · cos θ' / d̄², θ' the least angle to an emission axis,
-/// d̄ a mean distance. Nothing only if no light of the node can reach any point of the region.
-std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region);
-Cluster distantCluster(const LightTree& tree, NodeId id);
-
-/// Importance of a node at a point with unit normal n: its estimate there × receiverCosine. 0 only if no light of it can
-/// contribute.
-float nodeImportance(const LightTree& tree, bool distant, NodeId id, const Vec3& p, const Vec3& n);
 
 /// Refines first, from the roots, what may have the largest estimate if all its light is where it is nearest. The result is ordered by leaves, local clusters first, and is a
 /// function of its arguments alone.

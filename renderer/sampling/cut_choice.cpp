@@ -1,12 +1,12 @@
 #include "renderer/sampling/cut_choice.h"
 
+#include "renderer/sampling/mirrored_lights.h"
+
 #include <array>
 #include <cassert>
 
 namespace cellcut {
 namespace {
-
-constexpr double kAlmostOne = 1 - 0x1p-53;
 
 /// Weights of the near clusters at a point; on the stack, no allocation.
 struct NearWeights {
@@ -77,92 +77,129 @@ bool descends(InCluster inCluster, const LightTree& tree, NodeId node) {
 
 }  // namespace
 
-std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
-                                           double u) {
-  double pmf = 1;
-  while (!tree.isLeaf(node)) {
-    const auto left = static_cast<double>(nodeImportance(tree, distant, tree.left(node), point.p, point.n));
-    const auto right = static_cast<double>(nodeImportance(tree, distant, tree.right(node), point.p, point.n));
-    if (!(left + right > 0)) return std::nullopt;
-    const double toLeft = left / (left + right);
-    if (u < toLeft) {
-      u = std::min(u / toLeft, kAlmostOne);
-      pmf *= toLeft;
-      node = tree.left(node);
-    } else {
-      const double toRight = right / (left + right);
-      u = std::min((u - toLeft) / toRight, kAlmostOne);
-      pmf *= toRight;
-      node = tree.right(node);
-    }
-  }
-  return SampledLeaf{tree.node(node).firstLeaf(), pmf};
-}
+namespace {
 
-double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf) {
-  double pmf = 1;
-  while (!tree.isLeaf(node)) {
-    const auto left = static_cast<double>(nodeImportance(tree, distant, tree.left(node), point.p, point.n));
-    const auto right = static_cast<double>(nodeImportance(tree, distant, tree.right(node), point.p, point.n));
-    if (!(left + right > 0)) return 0;
-    const bool toLeft = leaf < tree.node(tree.right(node)).firstLeaf();
-    pmf *= (toLeft ? left : right) / (left + right);
-    node = toLeft ? tree.left(node) : tree.right(node);
+/// The choice between the clusters of a cut and, at a glossy surface, the lights that it mirrors.
+class CutChoice {
+ public:
+  CutChoice(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,
+            const ShadingPoint& point)
+      : trees_(trees),
+        cut_(cut),
+        far_(far),
+        inCluster_(inCluster),
+        point_(point),
+        weights_(cut, far, point),
+        mirrored_(trees, point) {}
+
+  std::optional<SampledLight> sample(double u) const {
+    if (!(weights_.sum > 0)) return std::nullopt;
+    const double share = mirrored_.share();
+    const bool mirrored = u < share;
+    std::optional<SampledLight> light =
+        mirrored ? mirrored_.sample(u / share) : sampleFromCut(std::min((u - share) / (1 - share), kAlmostOne));
+    if (!light || share == 0) return light;
+    const Place at = placeOf(light->light);
+    const double fromCut = mirrored ? pmfFromCut(at) : static_cast<double>(light->pmf);
+    const double fromMirrored = mirrored ? static_cast<double>(light->pmf) : mirrored_.pmf(at.distant, at.leaf);
+    light->pmf = mixed(fromCut, fromMirrored);
+    return light;
   }
-  return pmf;
-}
+
+  float pmf(LightId light) const {
+    const Place at = placeOf(light);
+    if (at.leaf == LightTree::kNoLeaf || !(weights_.sum > 0)) return 0;
+    return mixed(pmfFromCut(at), mirrored_.share() > 0 ? mirrored_.pmf(at.distant, at.leaf) : 0.0);
+  }
+
+ private:
+  std::optional<SampledLight> sampleFromCut(double u) const {
+    const CutWeights& w = weights_;
+    std::size_t chosen;
+    double pmf;
+    if (u < w.toFar) {
+      const AliasTable::Sample sample = far_.table().sample(std::min(u / w.toFar, kAlmostOne));
+      chosen = sample.index;
+      u = sample.rest;
+      pmf = w.farPmf(far_, chosen);
+    } else {
+      u = std::min((u - w.toFar) / (w.near.sum / w.sum), kAlmostOne);
+      const std::size_t i = chooseNear(w.near, cut_.near().blocks(), u);
+      chosen = cut_.farCount() + i;
+      pmf = w.nearPmf(i);
+    }
+    const auto [node, distant, firstLeaf, estimate] = cut_.members()[chosen];
+    const LightTree& tree = treeOf(trees_, distant);
+    if (descends(inCluster_, tree, node)) {
+      const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, DiffuseImportance{point_}, u);
+      if (!leaf) return std::nullopt;
+      return SampledLight{tree.light(leaf->leaf), static_cast<float>(pmf * leaf->pmf)};
+    }
+    const SampledLeaf leaf = tree.sampleByIntensity(node, u);
+    return SampledLight{tree.light(leaf.leaf), static_cast<float>(pmf * leaf.pmf)};
+  }
+
+  /// Where the trees have a light.
+  struct Place {
+    bool distant;
+    std::uint32_t leaf;
+  };
+  Place placeOf(LightId light) const {
+    const bool distant = light >= trees_.firstDistant;
+    return {distant, treeOf(trees_, distant).leafOf(light)};
+  }
+
+  float mixed(double fromCut, double fromMirrored) const {
+    return static_cast<float>((1 - mirrored_.share()) * fromCut + mirrored_.share() * fromMirrored);
+  }
+
+  double pmfFromCut(const Place& at) const {
+    const auto [distant, leaf] = at;
+    const LightTree& tree = treeOf(trees_, distant);
+    const auto offset = distant ? static_cast<std::uint32_t>(trees_.local.leafCount()) : 0u;
+    const std::optional<std::size_t> member = cut_.memberOf(trees_, leaf + offset);
+    if (!member) return 0;
+    const NodeId node = cut_.members()[*member].node;
+    const double inside = descends(inCluster_, tree, node)
+                              ? pmfByDescent(tree, distant, node, DiffuseImportance{point_}, leaf)
+                              : tree.pmfByIntensity(node, leaf);
+    return weights_.pmf(cut_, far_, *member) * inside;
+  }
+
+  const LightTrees& trees_;
+  const Cut& cut_;
+  const FarChoice& far_;
+  InCluster inCluster_;
+  const ShadingPoint& point_;
+  CutWeights weights_;
+  MirroredLights mirrored_;
+};
+
+}  // namespace
 
 std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, const FarChoice& far,
                                       InCluster inCluster, const ShadingPoint& point, double u) {
-  const CutWeights w(cut, far, point);
-  if (!(w.sum > 0)) return std::nullopt;
-  std::size_t chosen;
-  double pmf;
-  if (u < w.toFar) {
-    const AliasTable::Sample sample = far.table().sample(std::min(u / w.toFar, kAlmostOne));
-    chosen = sample.index;
-    u = sample.rest;
-    pmf = w.farPmf(far, chosen);
-  } else {
-    u = std::min((u - w.toFar) / (w.near.sum / w.sum), kAlmostOne);
-    const std::size_t i = chooseNear(w.near, cut.near().blocks(), u);
-    chosen = cut.farCount() + i;
-    pmf = w.nearPmf(i);
-  }
-  const auto [node, distant, firstLeaf, estimate] = cut.members()[chosen];
-  const LightTree& tree = treeOf(trees, distant);
-  if (descends(inCluster, tree, node)) {
-    const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, point, u);
-    if (!leaf) return std::nullopt;
-    return SampledLight{tree.light(leaf->leaf), static_cast<float>(pmf * leaf->pmf)};
-  }
-  const SampledLeaf leaf = tree.sampleByIntensity(node, u);
-  return SampledLight{tree.light(leaf.leaf), static_cast<float>(pmf * leaf.pmf)};
+  return CutChoice(trees, cut, far, inCluster, point).sample(u);
 }
 
 float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,
                const ShadingPoint& point, LightId light) {
-  const bool distant = static_cast<std::uint32_t>(light) >= static_cast<std::uint32_t>(trees.firstDistant);
-  const LightTree& tree = treeOf(trees, distant);
-  const std::uint32_t leaf = tree.leafOf(light);
-  if (leaf == LightTree::kNoLeaf) return 0;
-  const auto offset = distant ? static_cast<std::uint32_t>(trees.local.leafCount()) : 0u;
-  const std::optional<std::size_t> member = cut.memberOf(trees, leaf + offset);
-  if (!member) return 0;
-  const CutWeights w(cut, far, point);
-  if (!(w.sum > 0)) return 0;
-  const double pmf = w.pmf(cut, far, *member);
-  const NodeId node = cut.members()[*member].node;
-  const double inside = descends(inCluster, tree, node) ? pmfByDescent(tree, distant, node, point, leaf)
-                                                        : tree.pmfByIntensity(node, leaf);
-  return static_cast<float>(pmf * inside);
+  return CutChoice(trees, cut, far, inCluster, point).pmf(light);
 }
 
-std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point) {
+std::vector<double> clusterPmfs(const LightTrees& trees, const Cut& cut, const FarChoice& far,
+                                const ShadingPoint& point) {
   std::vector<double> pmfs(cut.size());
   const CutWeights w(cut, far, point);
   if (!(w.sum > 0)) return pmfs;
-  for (std::size_t i = 0; i < pmfs.size(); ++i) pmfs[i] = w.pmf(cut, far, i);
+  const MirroredLights mirrored(trees, point);
+  const double share = mirrored.share();
+  for (std::size_t i = 0; i < pmfs.size(); ++i) {
+    pmfs[i] = (1 - share) * w.pmf(cut, far, i);
+    if (!(share > 0)) continue;
+    const Cut::Member& m = cut.members()[i];
+    pmfs[i] += share * mirrored.pmf(m.distant, treeOf(trees, m.distant).node(m.node));
+  }
   return pmfs;
 }
 

@@ -7,12 +7,7 @@
 
 namespace cellcut {
 
-/// A leaf below `node`, chosen child by child in proportion to importance; nothing where no light can contribute.
-std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point,
-                                           double u);
-double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const ShadingPoint& point, std::uint32_t leaf);
-
-/// A light of a cut. Nothing when no light of it can reach the point, or when a descent ends where none can.
+/// A light of a cut, or at a glossy surface one that it mirrors (mirrored_lights.h). Nothing when no light of it can reach the point, or when a descent ends where none can.
 /// \param far  the cut's choice for facingOf(point.n)
 /// \pre cut.size() ≤ kMaxCutSize
 std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, const FarChoice& far,
@@ -20,8 +15,10 @@ std::optional<SampledLight> sampleCut(const LightTrees& trees, const Cut& cut, c
 float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, InCluster inCluster,
                const ShadingPoint& point, LightId light);
 
-/// Probability that sampleCut() goes into each cluster, in the order of cut.members(); their sum is 1, or all are 0
-/// where nothing is chosen. With InCluster::kDescent less than that comes out again as lights of the cluster.
-std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point);
+/// Probability that sampleCut() goes into each cluster, in the order of cut.members(). Their sum is 1, or all are 0 where
+/// nothing is chosen; at a glossy surface it is less by what walks of MirroredLights do not get as far. Where a walk goes
+/// on inside a cluster less than that comes out again as lights of the cluster.
+std::vector<double> clusterPmfs(const LightTrees& trees, const Cut& cut, const FarChoice& far,
+                                const ShadingPoint& point);
 
 }  // namespace cellcut

@@ -17,10 +17,18 @@ struct LightTrees;
 class GridGeometry;
 class CellTable;
 
+/// The GGX reflection of a surface, for choices that ask where it comes from.
+struct GlossyLobe {
+  Vec3 wo{0};       ///< unit, world space: where the light is to go
+  float alpha = 1;  ///< of the microfacets
+  float share = 0;  ///< of all reflected light, by albedos for wo; 0: there is no such reflection
+};
+
 /// Where light is to be gathered.
 struct ShadingPoint {
-  Vec3 p;  ///< metres
-  Vec3 n;  ///< unit shading normal, on the side of the outgoing direction; only directions above it matter
+  Vec3 p;             ///< metres
+  Vec3 n;             ///< unit shading normal, on the side of the outgoing direction; only directions above it matter
+  GlossyLobe lobe{};  ///< as far as LightSampler::usesLobe()
 };
 
 struct SampledLight {
@@ -47,6 +55,8 @@ class LightSampler {
   virtual std::optional<SampledLight> sample(const ShadingPoint& point, double u) const = 0;
   /// The probability that sample() returns `light` at this point.
   virtual float pmf(const ShadingPoint& point, LightId light) const = 0;
+  /// Whether it looks at ShadingPoint::lobe; one and the same lobe must be given to sample() and pmf() at a vertex.
+  virtual bool usesLobe() const { return false; }
   /// Memory of its tables.
   virtual std::size_t bytes() const = 0;
   /// What was built so far. Not while samples are drawn.

@@ -19,6 +19,7 @@ class PointCutSampler final : public LightSampler {
     const Cut cut = cutAt(point.p);
     return pmfInCut(trees_, cut, cut.makeFarChoice(facingOf(point.n)), settings_.inCluster, point, light);
   }
+  bool usesLobe() const override { return true; }
   std::size_t bytes() const override { return trees_.bytes(); }
   SamplerStatistics statistics() const override { return {.tree = trees_.statistics()}; }
   std::optional<CutStrategy> cutStrategy() const override { return CutStrategy{&trees_, nullptr, nullptr, settings_}; }

@@ -40,6 +40,9 @@ class Bsdf {
   /// Nothing when the sampled direction is below the surface or reflects nothing.
   /// \param uLobe chooses between base and reflection
   std::optional<BsdfSample> sample(const Vec3& wo, float uLobe, Vec2 u) const;
+  /// Probability with which sample() takes the reflection: about its share of all that is reflected.
+  float reflectionShare(const Vec3& wo) const { return reflects_ ? reflectionProbability(albedo_(wo.z)) : 0.0f; }
+  float alpha() const { return alpha_; }
 
  private:
   /// \param albedo  GgxAlbedo of the direction

@@ -24,8 +24,9 @@ struct Vertex {
   Frame frame;  ///< around the shading normal
   Vec3 wo;      ///< in the frame
   Bsdf bsdf;
+  GlossyLobe lobe;
 
-  ShadingPoint shadingPoint() const { return {surface.p, frame.z}; }
+  ShadingPoint shadingPoint() const { return {surface.p, frame.z, lobe}; }
   /// Cosine-weighted BSDF towards a world direction with the density that sampleBsdf has for it; 0 through the surface.
   Bsdf::Value scattering(const Vec3& direction) const {
     if (!(glm::dot(direction, normal) > 0)) return {};
@@ -37,10 +38,13 @@ struct Vertex {
 };
 
 /// \param outgoing  unit, world space, away from the surface
-Vertex makeVertex(const Scene& scene, const SurfacePoint& surface, const Vec3& outgoing) {
+Vertex makeVertex(const PathContext& context, const SurfacePoint& surface, const Vec3& outgoing) {
+  const Scene& scene = context.scene;
   const Vec3 normal = glm::dot(surface.normal, outgoing) < 0 ? -surface.normal : surface.normal;
   const Frame frame(shadingNormalTowards(scene, surface.at, normal, outgoing));
-  return {surface, normal, frame, frame.toLocal(outgoing), bsdfAt(scene, surface.at)};
+  Vertex vertex{surface, normal, frame, frame.toLocal(outgoing), bsdfAt(scene, surface.at), {}};
+  if (context.sampler.usesLobe()) vertex.lobe = lobeOf(vertex.bsdf, frame, outgoing);
+  return vertex;
 }
 
 /// The vertex that a bounce ray left from: what MIS at the next hit needs.
@@ -75,7 +79,7 @@ class Path {
       addEmission(surface, material, *hit, ray.direction);
       if (last) break;
 
-      const Vertex vertex = makeVertex(context_.scene, surface, -ray.direction);
+      const Vertex vertex = makeVertex(context_, surface, -ray.direction);
       if (depth == 0 && context_.auxiliary) result_.normal = vertex.frame.z;
       addDirectLight(vertex);
       if (depth + 1 == context_.maxDepth && !context_.bounceCanFind) break;

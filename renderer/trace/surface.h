@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/lights/triangle_light.h"
+#include "renderer/sampling/light_sampler.h"
 #include "renderer/scene/material.h"
 #include "renderer/trace/accel.h"
 
@@ -34,6 +35,12 @@ inline Vec3 shadingNormalTowards(const Scene& scene, const SurfaceCoordinates& a
   const Vec3 shading = shadingNormal(scene, at, geometricNormal);
   // One that looks away from the viewer would make the surface black: there the flat one serves.
   return glm::dot(shading, outgoing) > 0 ? shading : geometricNormal;
+}
+
+/// What a LightSampler may know of the reflection.
+/// \param outgoing  unit, world space
+inline GlossyLobe lobeOf(const Bsdf& bsdf, const Frame& shading, const Vec3& outgoing) {
+  return {outgoing, bsdf.alpha(), bsdf.reflectionShare(shading.toLocal(outgoing))};
 }
 
 }  // namespace cellcut

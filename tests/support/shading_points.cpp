@@ -6,11 +6,18 @@
 #include "renderer/scene/camera.h"
 #include "renderer/scene/material.h"
 
+#include <cmath>
+
 namespace cellcut::test {
 namespace {
 
+struct Arrival {
+  ShadingPoint point;
+  Vec3 wo;  ///< where the path came from
+};
+
 /// The vertex after `bounces` bounces of one path, if it gets that far.
-std::optional<ShadingPoint> vertexAfter(const Scene& scene, const Accel& accel, std::size_t bounces, Rng& rng) {
+std::optional<Arrival> vertexAfter(const Scene& scene, const Accel& accel, std::size_t bounces, Rng& rng) {
   constexpr int kFilm = 64;
   Ray ray = cameraRay(scene.cameras[0], {kFilm * rng.uniform(), kFilm * rng.uniform()}, {kFilm, kFilm});
   for (std::size_t depth = 0;; ++depth) {
@@ -21,7 +28,7 @@ std::optional<ShadingPoint> vertexAfter(const Scene& scene, const Accel& accel, 
     const Vec3 normal = glm::dot(triangle.normal, ray.direction) < 0 ? triangle.normal : -triangle.normal;
     const Vec3 p = ray.origin + hit->t * ray.direction;
     const Vec3 shading = shadingNormal(scene, {&mesh, hit->triangle, hit->barycentric}, normal);
-    if (depth == bounces) return ShadingPoint{p, shading};
+    if (depth == bounces) return Arrival{{p, shading}, -ray.direction};
     const Vec3 direction = Frame(normal).toWorld(cosineHemisphere({rng.uniform(), rng.uniform()}));
     ray = {offsetRayOrigin(p, triangleError(triangle.corners[0], triangle.corners[1], triangle.corners[2]), normal,
                            direction),
@@ -34,9 +41,16 @@ std::optional<ShadingPoint> vertexAfter(const Scene& scene, const Accel& accel, 
 std::vector<ShadingPoint> pathVertices(const Scene& scene, std::size_t count, std::uint64_t seed) {
   const Accel accel(scene);
   Rng rng(seed);
+  // Lobes have numbers of their own: what asks for none goes the same ways.
+  Rng lobes(hashOf(seed, 4));
   std::vector<ShadingPoint> points;
   for (std::size_t tries = 0; points.size() < count && tries < 100 * count; ++tries) {
-    if (const auto point = vertexAfter(scene, accel, points.size() % 3, rng)) points.push_back(*point);
+    const auto arrival = vertexAfter(scene, accel, points.size() % 3, rng);
+    if (!arrival) continue;
+    points.push_back(arrival->point);
+    // Every other point mirrors, sharply or not.
+    const bool mirrors = points.size() % 2 == 0 && glm::dot(arrival->point.n, arrival->wo) > 0;
+    if (mirrors) points.back().lobe = {arrival->wo, std::exp2(-9 * lobes.uniform()), lobes.uniform(0.1f, 0.9f)};
   }
   return points;
 }

@@ -18,10 +18,12 @@ struct SamplerVariant {
   Strategy strategy;
   SamplerSettings settings{};
 
-  /// A descent by bounds can end where no light is left.
-  bool canEndInNothing() const {
-    return strategy == Strategy::kLightTree || ((strategy == Strategy::kCellCut || strategy == Strategy::kPointCut) &&
-                                                settings.inCluster == InCluster::kDescent);
+  /// A descent by bounds can end where no light is left: those of light-tree, and of cuts inside a cluster or to what a
+  /// glossy surface mirrors.
+  bool canEndInNothing(const ShadingPoint& point) const {
+    const bool hasCuts = strategy == Strategy::kCellCut || strategy == Strategy::kPointCut;
+    return strategy == Strategy::kLightTree ||
+           (hasCuts && (settings.inCluster == InCluster::kDescent || point.lobe.share > 0));
   }
   friend void PrintTo(const SamplerVariant& variant, std::ostream* stream) { *stream << variant.name; }
 };

@@ -9,7 +9,9 @@ FirstHit firstHit(const Scene& scene, const Accel& accel, const Ray& ray) {
   if (!hit) return {};
   const SurfacePoint surface = surfaceAt(scene, *hit);
   const Vec3 normal = glm::dot(surface.normal, ray.direction) < 0 ? surface.normal : -surface.normal;
-  return {{surface.p, shadingNormalTowards(scene, surface.at, normal, -ray.direction)}, normal, surface.error, hit->t};
+  const Vec3 shading = shadingNormalTowards(scene, surface.at, normal, -ray.direction);
+  const GlossyLobe lobe = lobeOf(bsdfAt(scene, surface.at), Frame(shading), -ray.direction);
+  return {{surface.p, shading, lobe}, normal, surface.error, hit->t};
 }
 
 std::optional<Image<FirstHit>> traceFirstHits(const Scene& scene, const Accel& accel, const Camera& camera,

@@ -55,7 +55,7 @@ struct Lost {
     importance += !(nodeImportance(trees.local, false, trees.local.root(), c.point.p, c.point.n) > 0);
     std::vector<Cluster> clusters;
     findCut(trees, {c.point.p, 0}, {1, 2}, clusters);
-    if (clusters.size() != 1) clusters = {*localCluster(trees.local, trees.local.root(), {c.point.p, 0})};
+    if (clusters.size() != 1) clusters = {*localCluster(trees.local, trees.local.root(), Region{c.point.p, 0})};
     const Cut cut(trees, {c.point.p, 0}, clusters);
     alignas(64) std::array<float, kClusterBlock> weights;
     float sum;

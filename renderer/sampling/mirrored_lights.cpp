@@ -1,0 +1,49 @@
+#include "renderer/sampling/mirrored_lights.h"
+
+#include <algorithm>
+
+namespace cellcut {
+namespace {
+
+/// Lobes are followed whose peak, times the share of the light that they reflect, is above that of the even scattering,
+/// both times π: others gain nothing in the recipes and cost 5 % of a pass.
+constexpr float kLeastPeak = 1;
+
+/// Most of the samples that follow the mirror, of 1/3, 1/2, 2/3 and 9/10 the one with the least relMSE in street and hall.
+/// The rest bounds the variance of what is scattered evenly.
+constexpr double kMostShare = 2.0 / 3;
+
+/// What a cluster's extent adds to α²: this × (1 − cos θu), which is half of the mean square by which directions within
+/// θu turn the half vector. Twice and four times of it are no better; with a quarter lamps are missed.
+constexpr double kSpread = 0.25;
+
+}  // namespace
+
+MirroredImportance::MirroredImportance(const ShadingPoint& point)
+    : point_(point),
+      alpha2_(static_cast<double>(point.lobe.alpha) * static_cast<double>(point.lobe.alpha)),
+      // At grazing angles a direction turns the half vector by more.
+      perSpread_(kSpread / std::max(static_cast<double>(glm::dot(point.n, point.lobe.wo)), 0.1)) {}
+
+double MirroredImportance::operator()(const LightTree& tree, bool distant, NodeId node) const {
+  const std::optional<Cluster> cluster = clusterAt(tree, distant, node, point_.p);
+  if (!cluster) return 0;
+  const float cosTheta = glm::dot(point_.n, cluster->direction);
+  if (!(receiverCosine(cosTheta, cluster->cosThetaU, cluster->sinThetaU) > 0)) return 0;
+  const Vec3 h = point_.lobe.wo + cluster->direction;
+  const double lengthSquared = static_cast<double>(glm::dot(h, h)), nh = static_cast<double>(glm::dot(point_.n, h));
+  const double cos2 = lengthSquared > 1e-6 ? std::min(1.0, nh * nh / lengthSquared) : 0.0;
+  const double a2 = std::min(1.0, alpha2_ + (1 - static_cast<double>(cluster->cosThetaU)) * perSpread_);
+  const double e = (1 - cos2) / a2 + cos2;
+  return static_cast<double>(cluster->estimate) / (a2 * e * e);
+}
+
+MirroredLights::MirroredLights(const LightTrees& trees, const ShadingPoint& point) {
+  const auto& [wo, alpha, reflected] = point.lobe;
+  const float peak = reflected / (4 * alpha * alpha * std::max(glm::dot(point.n, wo), alpha));
+  if (!(peak > kLeastPeak)) return;
+  descent_.emplace(trees, MirroredImportance(point));
+  if (descent_->sum() > 0) share_ = kMostShare * static_cast<double>(peak / (peak + 1));
+}
+
+}  // namespace cellcut
