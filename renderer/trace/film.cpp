@@ -92,9 +92,9 @@ Image<glm::dvec3> Film::errors() const {
 }
 
 ImageRgb Film::standardError() const {
-  const Image<DVec3> errors = this->errors();
   ImageRgb image(width(), height());
-  for (std::size_t i = 0; i < image.size(); ++i) image[i] = Vec3(errors[i]);
+  if (passes_ < 2) return image;
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = Vec3(errorOf(sums_[i]));
   return image;
 }
 

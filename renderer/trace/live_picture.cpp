@@ -88,8 +88,8 @@ std::unique_ptr<PassRenderer> LivePicture::passesOver(Film& film) const {
   return std::make_unique<PassRenderer>(*prepared_, *sampler_, input_.settings, film);
 }
 
-SessionView LivePicture::view(std::uint64_t generation) const {
-  return {generation, *input_.scene, input_.settings, prepared_->accel, prepared_->lights, *sampler_, *film_};
+SessionView LivePicture::view(std::uint64_t generation, const std::atomic<bool>& cancel) const {
+  return {generation, *input_.scene, input_.settings, prepared_->accel, prepared_->lights, *sampler_, *film_, cancel};
 }
 
 }  // namespace cellcut

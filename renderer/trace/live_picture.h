@@ -8,6 +8,8 @@
 #include "renderer/trace/pass_renderer.h"
 #include "renderer/trace/session_input.h"
 
+#include <atomic>
+
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_scheduler_observer.h>
 
@@ -29,7 +31,7 @@ class LivePicture {
   /// Passes of the same picture over a film of another size.
   std::unique_ptr<PassRenderer> passesOver(Film& film) const;
   const LightSampler& sampler() const { return *sampler_; }
-  SessionView view(std::uint64_t generation) const;
+  SessionView view(std::uint64_t generation, const std::atomic<bool>& cancel) const;
 
   /// Runs a function with the threads of the arena that the parts are built on.
   template <class Function>

@@ -53,7 +53,7 @@ class RenderSession {
  public:
   /// \param wake  called on the driver after each new snapshot; must neither throw nor wait, and may call snapshot()
   explicit RenderSession(std::function<void()> wake = {});
-  /// Stops the workers within a pixel; waits for a scene that is being built.
+  /// Stops the workers within a pixel; waits for a scene that is being built and a function that inspects.
   ~RenderSession();
   RenderSession(const RenderSession&) = delete;
   RenderSession& operator=(const RenderSession&) = delete;
@@ -70,9 +70,9 @@ class RenderSession {
   bool atRest() const;
 
   /// Runs `f(const SessionView&)` on the driver as soon as all edits before this call are answered, inside the arena that
-  /// scenes are built on. Rendering goes on meanwhile to the end of the pass, an edit waits for it. What `f` throws comes
-  /// out of the future. The future is broken when there is no picture yet, or no session any more.
-  /// Before the first edit it waits for that.
+  /// scenes are built on. Rendering goes on meanwhile to the end of the pass; an edit waits for it, so that what takes
+  /// longer than a frame looks at SessionView::cancel. What `f` throws comes out of the future. The future is broken
+  /// when there is no picture yet, or no session any more. Before the first edit it waits for that.
   template <class Function>
   auto inspect(Function f) -> std::future<std::invoke_result_t<Function&, const SessionView&>> {
     using Result = std::invoke_result_t<Function&, const SessionView&>;

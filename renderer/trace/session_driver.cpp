@@ -32,6 +32,7 @@ SessionDriver::~SessionDriver() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
     cancel_ = true;
+    cancelJobs_ = true;
   }
   orders_.notify_all();
   thread_.join();
@@ -45,6 +46,7 @@ std::uint64_t SessionDriver::edit(SessionInput input) {
     pending_.swap(replaced);
     steps_ = 0;
     generation = ++generation_;
+    cancelJobs_ = true;
     if (!grace_) cancel_ = true;
   }
   orders_.notify_all();
@@ -110,8 +112,12 @@ bool SessionDriver::followOrders() {
   if (orders.stop) return false;
   if (orders.input) answer(std::move(*orders.input));
   if (!picture_.exists()) return true;  // nobody will run the jobs: their futures say so
-  for (const Job& job : orders.jobs) picture_.execute([&] { job(picture_.view(answered_)); });
+  runJobs(orders.jobs);
   return true;
+}
+
+void SessionDriver::runJobs(const std::vector<Job>& jobs) {
+  for (const Job& job : jobs) picture_.execute([&] { job(picture_.view(answered_, cancelJobs_)); });
 }
 
 SessionDriver::Orders SessionDriver::takeOrders() {
@@ -122,6 +128,7 @@ SessionDriver::Orders SessionDriver::takeOrders() {
     orders.input.swap(pending_);
     answered_ = generation_;
     cancel_ = stop_;
+    cancelJobs_ = stop_;
   }
   if (isJobDue()) orders.jobs.swap(jobs_);
   return orders;
@@ -291,7 +298,7 @@ void SessionDriver::awaitWorkers(Clock::time_point graceEnd, Inspection inspecti
       std::vector<Job> jobs;
       jobs.swap(jobs_);
       lock.unlock();
-      for (const Job& job : jobs) picture_.execute([&] { job(picture_.view(answered_)); });
+      runJobs(jobs);
       jobs.clear();
       lock.lock();
       continue;

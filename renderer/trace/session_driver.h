@@ -43,6 +43,7 @@ class SessionDriver {
   };
 
   void run();
+  void runJobs(const std::vector<Job>& jobs);
   Orders takeOrders();
   bool followOrders();  ///< false: to stop
   void work();
@@ -75,6 +76,8 @@ class SessionDriver {
   const std::function<void()> wake_;
   /// Raised by edits; lowered by the driver when it takes them.
   std::atomic<bool> cancel_{false};
+  /// The same for jobs, which have no grace.
+  std::atomic<bool> cancelJobs_{false};
   std::atomic<SessionState> state_{SessionState::kIdle};
 
   mutable std::mutex mutex_;

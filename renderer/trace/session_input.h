@@ -8,6 +8,7 @@
 #include "renderer/trace/film.h"
 #include "renderer/trace/render_settings.h"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -37,6 +38,7 @@ struct SessionView {
   const Lights& lights;
   const LightSampler& sampler;
   const Film& film;
+  const std::atomic<bool>& cancel;  ///< becomes true when an edit or the session's end waits for the function
 };
 
 }  // namespace cellcut

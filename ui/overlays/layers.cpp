@@ -1,5 +1,7 @@
 #include "ui/overlays/layers.h"
 
+#include <atomic>
+
 namespace cellcut {
 namespace {
 
@@ -24,21 +26,20 @@ float cellId(const CutInspector& inspector, const FirstHit& hit) {
 
 }  // namespace
 
-std::optional<LayeredImage> layersOf(const Film& film, const LightSampler& sampler, const Image<FirstHit>& firstHits,
-                                     const std::atomic<bool>& cancel) {
+LayeredImage layersOf(const Film& film, const LightSampler& sampler, const Image<FirstHit>& firstHits) {
   LayeredImage image = film.layers();
   image.layers.push_back(varianceLayer(image, film.passes()));
   const std::optional<CutInspector> inspector = CutInspector::of(sampler);
   if (!inspector || !inspector->grid()) return image;
   const OverlayInputs inputs{.firstHits = &firstHits, .sampler = &sampler};
-  const auto sizes = computeOverlay(Overlay::kCutSize, inputs, {film.width(), film.height()}, cancel);
-  if (!sizes) return std::nullopt;
+  const std::atomic<bool> never{false};
+  const auto sizes = *computeOverlay(Overlay::kCutSize, inputs, {film.width(), film.height()}, never);
   ImageLayer cell{"cell", {"id"}, {}}, cut{"cut", {"size"}, {}};
   cell.values.reserve(firstHits.size());
   cut.values.reserve(firstHits.size());
   for (std::size_t i = 0; i < firstHits.size(); ++i) {
     cell.values.push_back(cellId(*inspector, firstHits[i]));
-    cut.values.push_back(std::isnan((*sizes)[i]) ? 0 : (*sizes)[i]);
+    cut.values.push_back(std::isnan(sizes[i]) ? 0 : sizes[i]);
   }
   image.layers.push_back(std::move(cell));
   image.layers.push_back(std::move(cut));

@@ -13,8 +13,6 @@ namespace cellcut {
 ///   hit and beyond the grid's box. Exact: grids have up to 2²⁴ cells.
 /// - cut.size: clusters of its cut; 0 where no path touched the cell.
 /// \param firstHits  of the film's size
-/// \return nothing if `cancel` became true first
-std::optional<LayeredImage> layersOf(const Film& film, const LightSampler& sampler, const Image<FirstHit>& firstHits,
-                                     const std::atomic<bool>& cancel);
+LayeredImage layersOf(const Film& film, const LightSampler& sampler, const Image<FirstHit>& firstHits);
 
 }  // namespace cellcut

@@ -133,7 +133,10 @@ std::optional<Image<float>> computeOverlay(Overlay overlay, const OverlayInputs&
       break;
   }
   const bool hasReference = inputs.mean && hasSize(inputs.reference, size);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = filmValue(overlay, inputs, hasReference, i);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (cancel.load(std::memory_order_relaxed)) return std::nullopt;
+    values[i] = filmValue(overlay, inputs, hasReference, i);
+  }
   return values;
 }
 

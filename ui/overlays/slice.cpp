@@ -31,14 +31,15 @@ float coordinateOf(const Slice& slice, const GridGeometry& grid) {
   return box.lower[axis] + share * (box.upper[axis] - box.lower[axis]);
 }
 
-Image<FirstHit> sliceHits(const Slice& slice, const GridGeometry& grid, const Camera& camera,
-                          const Image<FirstHit>& behind) {
+std::optional<Image<FirstHit>> sliceHits(const Slice& slice, const GridGeometry& grid, const Camera& camera,
+                                         const Image<FirstHit>& behind, const std::atomic<bool>& cancel) {
   const int axis = axisOf(slice.axis);
   const float plane = coordinateOf(slice, grid);
   const Bounds box = boxOf(grid);
   const glm::ivec2 size(behind.width(), behind.height());
   Image<FirstHit> hits(size.x, size.y);
   for (int y = 0; y < size.y; ++y) {
+    if (cancel.load(std::memory_order_relaxed)) return std::nullopt;
     for (int x = 0; x < size.x; ++x) {
       const Ray ray = cameraRay(camera, Vec2(x, y) + Vec2(0.5f), size);
       const float t = (plane - ray.origin[axis]) / ray.direction[axis];

@@ -6,6 +6,7 @@
 
 #include "ui/overlays/wireframe.h"
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 
@@ -25,8 +26,9 @@ float coordinateOf(const Slice& slice, const GridGeometry& grid);
 
 /// Where each pixel's centre meets the plane within the grid's box, as a first hit whose normal looks back; no hit where
 /// something of `behind` is nearer.
-Image<FirstHit> sliceHits(const Slice& slice, const GridGeometry& grid, const Camera& camera,
-                          const Image<FirstHit>& behind);
+/// \return nothing if `cancel` became true first
+std::optional<Image<FirstHit>> sliceHits(const Slice& slice, const GridGeometry& grid, const Camera& camera,
+                                         const Image<FirstHit>& behind, const std::atomic<bool>& cancel);
 
 /// The sides of the cells on the plane.
 std::vector<Segment> sliceSegments(const Slice& slice, const GridGeometry& grid, const Rgba8& color);

@@ -1,5 +1,6 @@
 #include "ui/viewer/overlay_source.h"
 
+#include <atomic>
 #include <chrono>
 
 namespace cellcut {
@@ -9,14 +10,13 @@ struct OverlaySource::Cache {
   Camera camera;
   glm::ivec2 size{0};
   Image<FirstHit> hits;
-  std::atomic<bool> stop{false};  ///< set when nobody waits any more
 
   /// Nothing if it was stopped.
-  const Image<FirstHit>* of(const SessionView& view) {
+  const Image<FirstHit>* of(const SessionView& view, const std::atomic<bool>& cancel) {
     const Camera& now = viewOf(view.scene, view.settings);
     const glm::ivec2 wanted(view.settings.width, view.settings.height);
     if (scene == &view.scene && size == wanted && sameView(camera, now)) return &hits;
-    std::optional<Image<FirstHit>> traced = traceFirstHits(view.scene, view.accel, now, wanted, stop);
+    std::optional<Image<FirstHit>> traced = traceFirstHits(view.scene, view.accel, now, wanted, cancel);
     if (!traced) return nullptr;
     scene = &view.scene;
     camera = now;
@@ -63,72 +63,79 @@ ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, const
   return lines;
 }
 
+/// Nothing if it was stopped.
+std::optional<OverlayPicture> makePicture(const SessionView& view, const Image<FirstHit>& hits,
+                                          const OverlayChoice& choice, std::optional<glm::ivec2> pick,
+                                          const ImageRgb* reference) {
+  OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};
+  picture.lightCount = view.lights.size();
+  const Camera& camera = viewOf(view.scene, view.settings);
+  const glm::ivec2 size(view.settings.width, view.settings.height);
+  OverlayInputs inputs{.firstHits = &hits,
+                       .sampler = &view.sampler,
+                       .passes = view.film.passes(),
+                       .reference = reference,
+                       .badSamples = &view.film.badSampleCounts()};
+  ImageRgb mean, error;
+  if (pick || choice.overlay == Overlay::kVariance || choice.overlay == Overlay::kError) {
+    mean = view.film.mean();
+    if (view.cancel) return std::nullopt;
+    error = view.film.standardError();
+    inputs.mean = &mean;
+    inputs.standardError = &error;
+  }
+  std::optional<Image<FirstHit>> plane;
+  const auto inspector = CutInspector::of(view.sampler);
+  if (choice.slice.axis != SliceAxis::kNone && inspector && inspector->grid()) {
+    picture.slice = coordinateOf(choice.slice, *inspector->grid());
+    if (isOfCells(choice.overlay)) {
+      plane = sliceHits(choice.slice, *inspector->grid(), camera, hits, view.cancel);
+      if (!plane) return std::nullopt;
+      inputs.firstHits = &*plane;
+      inputs.everyCell = true;
+    }
+  }
+  if (choice.overlay != Overlay::kNone) {
+    std::optional<Image<float>> values = computeOverlay(choice.overlay, inputs, size, view.cancel);
+    if (!values) return std::nullopt;
+    picture.values = std::move(*values);
+    picture.statistics = statisticsOf(picture.values);
+  }
+  picture.touched = touchedCells(view.sampler);
+  if (pick && pick->x >= 0 && pick->y >= 0 && pick->x < size.x && pick->y < size.y) {
+    const InspectionInputs looked{.scene = view.scene,
+                                  .accel = view.accel,
+                                  .lights = view.lights,
+                                  .sampler = view.sampler,
+                                  .camera = camera,
+                                  .size = size,
+                                  .mean = &mean,
+                                  .standardError = &error,
+                                  .passes = view.film.passes()};
+    picture.inspection = inspectPixel(looked, *pick, samplesPerSide(view.lights.size()), view.cancel);
+    if (!picture.inspection) return std::nullopt;
+  }
+  picture.lines = drawLines(view, hits, choice, picture.inspection ? &*picture.inspection : nullptr);
+  return picture;
+}
+
 }  // namespace
 
 OverlaySource::OverlaySource() : cache_(std::make_shared<Cache>()) {}
-
-OverlaySource::~OverlaySource() {
-  cache_->stop = true;
-}
 
 void OverlaySource::request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
                             const std::shared_ptr<const ImageRgb>& reference) {
   if (busy()) return;
   pending_ = session.inspect([cache = cache_, choice, pick, reference](const SessionView& view) {
-    OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};
-    picture.lightCount = view.lights.size();
-    const glm::ivec2 size(view.settings.width, view.settings.height);
-    const Image<FirstHit>* hits = cache->of(view);
-    if (!hits) return picture;
-    const ImageRgb mean = view.film.mean(), error = view.film.standardError();
-    OverlayInputs inputs{.firstHits = hits,
-                         .sampler = &view.sampler,
-                         .mean = &mean,
-                         .standardError = &error,
-                         .passes = view.film.passes(),
-                         .reference = reference.get(),
-                         .badSamples = &view.film.badSampleCounts()};
-    Image<FirstHit> plane;
-    const auto inspector = CutInspector::of(view.sampler);
-    if (choice.slice.axis != SliceAxis::kNone && inspector && inspector->grid()) {
-      picture.slice = coordinateOf(choice.slice, *inspector->grid());
-      if (isOfCells(choice.overlay)) {
-        plane = sliceHits(choice.slice, *inspector->grid(), viewOf(view.scene, view.settings), *hits);
-        inputs.firstHits = &plane;
-        inputs.everyCell = true;
-      }
-    }
-    if (choice.overlay != Overlay::kNone) {
-      if (auto values = computeOverlay(choice.overlay, inputs, size, cache->stop)) {
-        picture.values = std::move(*values);
-        picture.statistics = statisticsOf(picture.values);
-      }
-    }
-    picture.touched = touchedCells(view.sampler);
-    if (pick && pick->x >= 0 && pick->y >= 0 && pick->x < size.x && pick->y < size.y) {
-      const InspectionInputs looked{.scene = view.scene,
-                                    .accel = view.accel,
-                                    .lights = view.lights,
-                                    .sampler = view.sampler,
-                                    .camera = viewOf(view.scene, view.settings),
-                                    .size = size,
-                                    .mean = &mean,
-                                    .standardError = &error,
-                                    .passes = view.film.passes()};
-      picture.inspection = inspectPixel(looked, *pick, samplesPerSide(view.lights.size()), cache->stop);
-    }
-    picture.lines = drawLines(view, *hits, choice, picture.inspection ? &*picture.inspection : nullptr);
-    return picture;
+    const Image<FirstHit>* hits = cache->of(view, view.cancel);
+    return hits ? makePicture(view, *hits, choice, pick, reference.get()) : std::nullopt;
   });
 }
 
 std::future<LayeredImage> OverlaySource::layers(RenderSession& session) const {
   return session.inspect([cache = cache_](const SessionView& view) {
-    const Image<FirstHit>* hits = cache->of(view);
-    std::optional<LayeredImage> layers;
-    if (hits) layers = layersOf(view.film, view.sampler, *hits, cache->stop);
-    if (!layers) throw std::runtime_error("stopped");
-    return std::move(*layers);
+    const std::atomic<bool> never{false};
+    return layersOf(view.film, view.sampler, *cache->of(view, never));
   });
 }
 

@@ -31,17 +31,15 @@ struct OverlayPicture {
 class OverlaySource {
  public:
   OverlaySource();
-  ~OverlaySource();
-  OverlaySource(const OverlaySource&) = delete;
-  OverlaySource& operator=(const OverlaySource&) = delete;
 
-  /// Asks for a new one unless a request is on its way.
+  /// Asks for a new one unless a request is on its way. An edit of the session stops it.
   /// \param reference  may be null
   void request(RenderSession& session, const OverlayChoice& choice, std::optional<glm::ivec2> pick,
                const std::shared_ptr<const ImageRgb>& reference);
-  /// The rendering as layersOf(). The future is broken when there is no picture.
+  /// The rendering as layersOf(). An edit waits for it: a file that was asked for is written. The future is broken when
+  /// there is no picture.
   std::future<LayeredImage> layers(RenderSession& session) const;
-  /// What came in since the last call.
+  /// What came in since the last call; nothing came of a request that was stopped.
   std::optional<OverlayPicture> take();
   bool busy() const { return pending_.valid(); }
   /// Until the request is answered: for scripts and screenshots.
@@ -50,7 +48,7 @@ class OverlaySource {
  private:
   struct Cache;
   std::shared_ptr<Cache> cache_;  ///< touched by the session's thread only
-  std::future<OverlayPicture> pending_;
+  std::future<std::optional<OverlayPicture>> pending_;
 };
 
 }  // namespace cellcut

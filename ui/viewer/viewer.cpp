@@ -81,8 +81,7 @@ double Viewer::sleepSeconds() const {
 
 bool Viewer::settled() const {
   return !edited_ && !loading_.valid() && !loadingReference_.valid() && !saving_.valid() && !overlays_.busy() &&
-         !gui_.inputPending() && session_.snapshot()->generation >= generation_ &&
-         (!overlayWanted() || overlayIsCurrent());
+         !gui_.inputPending() && snapshot_->generation >= generation_ && (!overlayWanted() || overlayIsCurrent());
 }
 
 bool Viewer::atRest() const {

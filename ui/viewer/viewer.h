@@ -74,7 +74,7 @@ class Viewer {
   const std::string& problem() const { return problem_; }
   PixelRect imageArea() const { return area_; }
   ImagePlacement placement() const { return placement_; }
-  /// Whether the newest snapshot is of the newest edit and nothing is being loaded or looked up.
+  /// Whether the snapshot that is shown is of the newest edit and nothing is being loaded or looked up.
   bool settled() const;
   /// Whether nothing is left to do: no pass, no turn of a duel, no reference, no measurement.
   bool atRest() const;

@@ -534,6 +534,49 @@ TEST_F(Session, InspectionSeesTheEditBeforeItAndItsExceptionsComeOut) {
   EXPECT_EQ(session.snapshot()->passes, 2u);
 }
 
+/// A function that waits to be told to stop, for a minute: whether it was. Returns when it has begun.
+std::future<bool> waitForCancel(RenderSession& session) {
+  std::promise<void> begun;
+  std::future<void> hasBegun = begun.get_future();
+  auto cancelled = session.inspect([begun = std::move(begun)](const SessionView& view) mutable {
+    begun.set_value();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!view.cancel && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    return view.cancel.load();
+  });
+  hasBegun.wait();
+  return cancelled;
+}
+
+TEST_F(Session, AnEditStopsAnInspectionAtRestAndBesideAPreviewAndAPass) {
+  SessionInput slowPreview = endless();
+  slowPreview.preview = true;
+  const std::array<std::pair<SessionInput, SessionState>, 3> cases{
+      {{input, SessionState::kIdle}, {slowPreview, SessionState::kPreview}, {endless(), SessionState::kRendering}}};
+  for (const auto& [first, state] : cases) {
+    RenderSession session;
+    session.edit(first);
+    if (state == SessionState::kIdle) session.waitIdle();
+    while (session.state() != state) std::this_thread::yield();
+    std::future<bool> cancelled = waitForCancel(session);
+    const std::uint64_t generation = session.edit(input);
+    EXPECT_TRUE(cancelled.get());
+    // The next one may take its time.
+    const auto look = [](const SessionView& v) { return std::pair(v.generation, v.cancel.load()); };
+    EXPECT_EQ(session.inspect(look).get(), std::pair(generation, false));
+  }
+}
+
+TEST_F(Session, ItsEndStopsAnInspection) {
+  std::future<bool> cancelled;
+  {
+    RenderSession session;
+    session.edit(input);
+    cancelled = waitForCancel(session);
+  }
+  EXPECT_TRUE(cancelled.get());
+}
+
 TEST_F(Session, AnInspectionThatNobodyComesToIsBroken) {
   std::future<int> never;
   {
