@@ -89,7 +89,7 @@ std::unique_ptr<PassRenderer> LivePicture::passesOver(Film& film) const {
 }
 
 SessionView LivePicture::view(std::uint64_t generation, const std::atomic<bool>& cancel) const {
-  return {generation, *input_.scene, input_.settings, prepared_->accel, prepared_->lights, *sampler_, *film_, cancel};
+  return {generation, input_.scene, input_.settings, prepared_->accel, prepared_->lights, *sampler_, *film_, cancel};
 }
 
 }  // namespace cellcut

@@ -31,8 +31,8 @@ struct SessionInput {
 /// What a function that inspects a session may look at: const members of all of it may be called while tiles are being
 /// rendered. The film stands still meanwhile; a sampler may be making cells.
 struct SessionView {
-  std::uint64_t generation;  ///< of the newest edit that was answered
-  const Scene& scene;
+  std::uint64_t generation;                   ///< of the newest edit that was answered
+  const std::shared_ptr<const Scene>& scene;  ///< never null
   const RenderSettings& settings;
   const Accel& accel;
   const Lights& lights;

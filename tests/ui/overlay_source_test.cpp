@@ -3,9 +3,13 @@
 #include "renderer/trace/session.h"
 #include "tests/support/scenes.h"
 
+#include <array>
+#include <cstddef>
 #include <future>
 #include <memory>
+#include <new>
 #include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -15,14 +19,12 @@ namespace {
 class OverlaySourceTest : public testing::Test {
  protected:
   OverlaySourceTest() {
-    input_.scene = std::make_shared<const Scene>(stage(LightMix::kAll, 40, 3));
     input_.settings.width = 40;
     input_.settings.height = 30;
     input_.settings.maxDepth = 1;
     input_.settings.threads = 1;
     input_.passLimit = 2;
-    session_.edit(input_);
-    session_.waitIdle();
+    show(std::make_shared<const Scene>(stage(LightMix::kAll, 40, 3)));
   }
 
   struct Asked {
@@ -51,6 +53,17 @@ class OverlaySourceTest : public testing::Test {
     return hold;
   }
 
+  /// In the memory where the last one lay, which must be gone.
+  std::shared_ptr<const Scene> sceneInTheSamePlace(Scene scene) {
+    return {new (place_.data()) Scene(std::move(scene)), [](const Scene* s) { s->~Scene(); }};
+  }
+  void show(std::shared_ptr<const Scene> scene) {
+    input_.scene = std::move(scene);
+    session_.edit(input_);
+    session_.waitIdle();
+  }
+
+  alignas(Scene) std::array<std::byte, sizeof(Scene)> place_;
   SessionInput input_;
   OverlaySource source_;
   RenderSession session_;
@@ -94,6 +107,24 @@ TEST_F(OverlaySourceTest, AnEditWaitsForTheLayersOfAFile) {
   session_.edit(input_);
   second.release.set_value();
   EXPECT_EQ(layers.get().width, input_.settings.width);
+}
+
+TEST_F(OverlaySourceTest, ASceneWhereAnotherLayInMemoryHasFirstHitsOfItsOwn) {
+  const Scene full = stage(LightMix::kPoint, 10, 3);
+  Scene empty = full;
+  empty.meshes.clear();
+  finish(empty);
+  const Asked touched{.choice = {.overlay = Overlay::kTouched}};
+  show(sceneInTheSamePlace(full));
+  request(touched);
+  EXPECT_GT(answer()->statistics.count, 0u);
+
+  const std::weak_ptr<const Scene> before = input_.scene;
+  show(std::make_shared<const Scene>(full));
+  ASSERT_TRUE(before.expired());
+  show(sceneInTheSamePlace(empty));
+  request(touched);
+  EXPECT_EQ(answer()->statistics.count, 0u);
 }
 
 }  // namespace

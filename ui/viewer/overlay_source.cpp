@@ -6,19 +6,19 @@
 namespace cellcut {
 /// First hits change with the view alone: kept from overlay to overlay.
 struct OverlaySource::Cache {
-  const Scene* scene = nullptr;
+  std::weak_ptr<const Scene> scene;  ///< its address may be another scene's later
   Camera camera;
   glm::ivec2 size{0};
   Image<FirstHit> hits;
 
   /// Nothing if it was stopped.
   const Image<FirstHit>* of(const SessionView& view, const std::atomic<bool>& cancel) {
-    const Camera& now = viewOf(view.scene, view.settings);
+    const Camera& now = viewOf(*view.scene, view.settings);
     const glm::ivec2 wanted(view.settings.width, view.settings.height);
-    if (scene == &view.scene && size == wanted && sameView(camera, now)) return &hits;
-    std::optional<Image<FirstHit>> traced = traceFirstHits(view.scene, view.accel, now, wanted, cancel);
+    if (scene.lock() == view.scene && size == wanted && sameView(camera, now)) return &hits;
+    std::optional<Image<FirstHit>> traced = traceFirstHits(*view.scene, view.accel, now, wanted, cancel);
     if (!traced) return nullptr;
-    scene = &view.scene;
+    scene = view.scene;
     camera = now;
     size = wanted;
     hits = std::move(*traced);
@@ -51,7 +51,7 @@ ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, const
   if (inspection) {
     std::vector<ClusterInspection> clusters;
     for (const ClusterRow& row : inspection->clusters) clusters.push_back(row.cluster);
-    const float pointSize = 0.01f * view.scene.bounds.radius();
+    const float pointSize = 0.01f * view.scene->bounds.radius();
     const std::vector<Segment> boxes =
         clusterSegments(clusters, probabilityScale(clusters, Colormap::kViridis), kClusterAlpha, pointSize);
     segments.insert(segments.end(), boxes.begin(), boxes.end());
@@ -59,7 +59,7 @@ ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, const
   }
   if (segments.empty()) return {};
   ImageRgba8 lines(hits.width(), hits.height());
-  drawSegments(lines, depthOf(hits), viewOf(view.scene, view.settings), segments);
+  drawSegments(lines, depthOf(hits), viewOf(*view.scene, view.settings), segments);
   return lines;
 }
 
@@ -69,7 +69,7 @@ std::optional<OverlayPicture> makePicture(const SessionView& view, const Image<F
                                           const ImageRgb* reference) {
   OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};
   picture.lightCount = view.lights.size();
-  const Camera& camera = viewOf(view.scene, view.settings);
+  const Camera& camera = viewOf(*view.scene, view.settings);
   const glm::ivec2 size(view.settings.width, view.settings.height);
   OverlayInputs inputs{.firstHits = &hits,
                        .sampler = &view.sampler,
@@ -103,7 +103,7 @@ std::optional<OverlayPicture> makePicture(const SessionView& view, const Image<F
   }
   picture.touched = touchedCells(view.sampler);
   if (pick && pick->x >= 0 && pick->y >= 0 && pick->x < size.x && pick->y < size.y) {
-    const InspectionInputs looked{.scene = view.scene,
+    const InspectionInputs looked{.scene = *view.scene,
                                   .accel = view.accel,
                                   .lights = view.lights,
                                   .sampler = view.sampler,

@@ -214,7 +214,7 @@ void Viewer::focusAt(const Vec2& position) {
   // focus stays.
   auto found = session_.inspect([pixel = *pixel](const SessionView& view) -> std::optional<float> {
     const Ray ray =
-        cameraRay(viewOf(view.scene, view.settings), Vec2(pixel) + 0.5f, {view.settings.width, view.settings.height});
+        cameraRay(viewOf(*view.scene, view.settings), Vec2(pixel) + 0.5f, {view.settings.width, view.settings.height});
     const auto hit = view.accel.intersect(ray, 0);
     return hit ? std::optional(hit->t) : std::nullopt;
   });
