@@ -66,6 +66,10 @@ const Table& theTable() {
 
 }  // namespace
 
+void GgxAlbedo::prepare() {
+  theTable();
+}
+
 GgxAlbedo::GgxAlbedo(float roughness) {
   const float at = roughness > 0 ? std::min(roughness, 1.0f) * kRows : 0.0f;
   row_ = std::min(static_cast<int>(at), kRows - 1);

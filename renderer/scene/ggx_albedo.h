@@ -7,9 +7,12 @@
 namespace cellcut {
 
 /// Directional albedo of GGX under Schlick's Fresnel, E(μ) = F0 · x + F90 · y: both coefficients from a table that is
-/// made at the first use, to within 0.5 % of what is received, 1 % at cosines below 0.05 (tested).
+/// made once in a program, to within 0.5 % of what is received, 1 % at cosines below 0.05 (tested).
 class GgxAlbedo {
  public:
+  /// Makes the table, in about 30 ms; without this call the first use does.
+  static void prepare();
+
   /// \param roughness  perceptual, [0, 1]
   explicit GgxAlbedo(float roughness);
 

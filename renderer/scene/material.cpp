@@ -121,6 +121,11 @@ Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3&
   return glm::dot(normal, geometricNormal) < 0 ? -normal : normal;
 }
 
+bool canReflect(const Material& material) {
+  // Textures multiply.
+  return !material.unlit && (material.metallic > 0 || material.specular > 0);
+}
+
 Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
   const Vec3 color = baseColor(scene, at);

@@ -26,6 +26,9 @@ Vec3 baseColor(const Scene& scene, const SurfaceCoordinates& at);
 /// Shading normal, unit, on the side of the geometric normal given: interpolated, then perturbed by the normal texture.
 Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3& geometricNormal);
 
+/// False only if the material has no BSDF but a Lambertian one.
+bool canReflect(const Material& material);
+
 /// The BSDF of a material that is not unlit.
 Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at);
 

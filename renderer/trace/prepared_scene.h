@@ -11,11 +11,11 @@
 
 namespace cellcut {
 
-/// What depends on the scene alone. The scene must outlive it. Threads: const members may run concurrently.
+/// What depends on the scene alone, and GgxAlbedo's table where the scene needs it. The scene must outlive it. Threads: const members may run concurrently.
 struct PreparedScene {
   /// Builds on the threads of the calling TBB arena.
   /// \throws std::bad_alloc, std::runtime_error as Accel does
-  explicit PreparedScene(const Scene& s) : scene(s), accel(s), lights(s) {}
+  explicit PreparedScene(const Scene& s);
 
   const Scene& scene;
   Accel accel;

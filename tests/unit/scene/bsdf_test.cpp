@@ -77,6 +77,18 @@ TEST(Bsdf, LambertianIsExactlyItsAlbedo) {
   }
 }
 
+TEST(Bsdf, IsLambertianExactlyWhereTheMaterialCannotReflect) {
+  for (const auto& [name, material] : materials()) {
+    const Bsdf bsdf = bsdfOf(material);
+    const Vec3 across = bsdf.eval(direction(1), direction(1)).value;
+    const Vec3 grazing = bsdf.eval(direction(0.1f), direction(0.1f, 2)).value;
+    EXPECT_EQ(canReflect(material), across != grazing) << name;
+  }
+  Material unlit = metal(Vec3(1), 0.5f);
+  unlit.unlit = true;
+  EXPECT_FALSE(canReflect(unlit));
+}
+
 TEST(Bsdf, IsReciprocal) {
   Rng rng(2);
   for (const auto& [name, material] : materials()) {
