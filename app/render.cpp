@@ -1,12 +1,12 @@
 /// The verb `render`: scene file → picture file.
 #include "app/command_line.h"
 #include "app/interrupt.h"
-#include "app/noise_watch.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
+#include "renderer/trace/noise_watch.h"
 
 #include <memory>
 #include <span>

@@ -21,7 +21,7 @@ struct StopRule {
 struct RenderState {
   std::uint64_t passes = 0;
   double seconds = 0;        ///< since the first pass began
-  double relativeError = 0;  ///< √relMSE is below it (NoiseWatch); only looked at where needsNoise() says so
+  double relativeError = 0;  ///< NoiseEstimate::bound of a NoiseWatch; only looked at where needsNoise() says so
 };
 
 /// Whether the rule wants RenderState::relativeError after `passes` passes.

@@ -194,7 +194,7 @@ void SessionDriver::startAgain() {
   previewScale_ = picture_.input().preview ? firstScale_ : 0;
   seconds_ = 0;
   unpublished_ = false;
-  relativeError_ = {};
+  noise_ = {};
 }
 
 void SessionDriver::refuse(const char* why) {
@@ -224,7 +224,7 @@ bool SessionDriver::limitReached() {
   const std::uint64_t passes = picture_.film().passes();
   if (input.passLimit && passes >= *input.passLimit) return true;
   if (input.timeLimit && passes > 0 && seconds_ >= *input.timeLimit) return true;
-  return input.noiseLimit && passes >= kMinNoisePasses && !(relativeError() >= *input.noiseLimit);
+  return input.noiseLimit && !(relativeError() >= *input.noiseLimit);
 }
 
 void SessionDriver::renderPreview() {
@@ -316,9 +316,9 @@ void SessionDriver::awaitWorkers(Clock::time_point graceEnd, Inspection inspecti
 // The driver: snapshots -------------------------------------------------------------------------------------------
 
 double SessionDriver::relativeError() {
-  const std::uint64_t passes = picture_.film().passes();
-  if (relativeError_.first != passes) relativeError_ = {passes, picture_.film().relativeError()};
-  return relativeError_.second;
+  const SessionInput& input = picture_.input();
+  if (input.noise || input.noiseLimit) noise_.look(picture_.film());
+  return noise_.noise().bound;
 }
 
 std::shared_ptr<Snapshot> SessionDriver::describe(const PassRenderer& passes, const Film& film, double seconds) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/trace/live_picture.h"
+#include "renderer/trace/noise_watch.h"
 #include "renderer/trace/session.h"
 #include "renderer/trace/worker_pool.h"
 
@@ -97,15 +98,15 @@ class SessionDriver {
   // The driver's own.
   LivePicture picture_;
   std::unique_ptr<WorkerPool> pool_;
-  std::uint64_t answered_ = 0;                            ///< generation of the newest edit that was applied or refused
-  std::string error_;                                     ///< why it was refused, or rendering failed
-  bool failed_ = false;                                   ///< rendering did; only an edit makes it go on
-  int previewScale_ = 0;                                  ///< of the next preview; 0: none is due
-  int firstScale_ = kPreviewScale;                        ///< of the first preview of a picture
-  double seconds_ = 0;                                    ///< of the passes in the film
-  bool unpublished_ = false;                              ///< the film holds a pass that no snapshot shows
-  SamplerStatistics statistics_;                          ///< after the passes in the film
-  std::pair<std::uint64_t, double> relativeError_{0, 0};  ///< of the film after so many passes
+  std::uint64_t answered_ = 0;      ///< generation of the newest edit that was applied or refused
+  std::string error_;               ///< why it was refused, or rendering failed
+  bool failed_ = false;             ///< rendering did; only an edit makes it go on
+  int previewScale_ = 0;            ///< of the next preview; 0: none is due
+  int firstScale_ = kPreviewScale;  ///< of the first preview of a picture
+  double seconds_ = 0;              ///< of the passes in the film
+  bool unpublished_ = false;        ///< the film holds a pass that no snapshot shows
+  SamplerStatistics statistics_;    ///< after the passes in the film
+  NoiseWatch noise_;                ///< of the film
 
   std::thread thread_;  ///< last: it uses everything above
 };

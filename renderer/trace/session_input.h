@@ -15,17 +15,18 @@
 
 namespace cellcut {
 
-/// All that decides what is rendered. Rendering stops at whichever limit is reached first; an edit of limits, `paused`
-/// or `layers` alone goes on with the picture that there is.
+/// All that decides what is rendered. Rendering stops at whichever limit is reached first; an edit of limits, `paused`,
+/// `layers` or `noise` alone goes on with the picture that there is.
 struct SessionInput {
   std::shared_ptr<const Scene> scene;  ///< another pointer is another scene
   RenderSettings settings;             ///< width, height ≥ 1
   std::optional<std::uint64_t> passLimit;
   std::optional<double> timeLimit;   ///< seconds of rendering, > 0
-  std::optional<double> noiseLimit;  ///< Film::relativeError(), > 0; looked at from kMinNoisePasses on
+  std::optional<double> noiseLimit;  ///< √relMSE that NoiseWatch finds the picture below, > 0
   bool paused = false;               ///< after the preview
   bool preview = true;               ///< coarse pictures first; they touch cells too
   bool layers = false;               ///< snapshots have Snapshot::layers
+  bool noise = false;                ///< and Snapshot::relativeError without a limit on it; takes memory: NoiseWatch
 };
 
 /// What a function that inspects a session may look at: const members of all of it may be called while tiles are being

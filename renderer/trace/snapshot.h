@@ -26,7 +26,8 @@ struct Snapshot {
   RayCounts rays;
   std::uint64_t droppedSamples = 0;  ///< a shading point coincides with a point light
   BadSamples bad;
-  double relativeError = std::numeric_limits<double>::infinity();  ///< Film::relativeError()
+  /// NoiseEstimate::bound of the last look of a NoiseWatch, which the input asks for; infinite before the first.
+  double relativeError = std::numeric_limits<double>::infinity();
   SamplerStatistics sampler;
   std::shared_ptr<const LayeredImage> layers;  ///< Film::layers() where the input asks for them; null for a preview
 };

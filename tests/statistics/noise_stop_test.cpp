@@ -1,8 +1,8 @@
 // `--noise REL`: a rendering that stops on it is nearer to the truth than REL. Designed for 97 %, shown for 90 %, in
 // direct light.
-#include "app/noise_watch.h"
 #include "app/stop_rule.h"
 #include "renderer/measure/metrics.h"
+#include "renderer/trace/noise_watch.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
 #include "tests/support/recipe_scene.h"

@@ -367,8 +367,16 @@ TEST_F(ViewerTest, LimitsPauseAndStep) {
   EXPECT_EQ(viewer_->session().snapshot()->passes, 4u);
   play("key P\nwait idle\nexpect ETA done\nset \"Stop at spp\" 0\nset \"Stop at REL\" 0.5\nwait idle\n");
   EXPECT_GE(viewer_->session().snapshot()->passes, kMinNoisePasses);
+  EXPECT_LT(viewer_->session().snapshot()->relativeError, 0.5);
   play("set \"Stop at REL\" 0\nset \"Stop at s\" 1\nwait idle\nexpect ETA done\n");
   EXPECT_GE(viewer_->session().snapshot()->seconds, 1);
+}
+
+TEST_F(ViewerTest, TheRelativeErrorIsShownWithoutALimitOnIt) {
+  play("wait idle\n");
+  EXPECT_EQ(viewer_->widgets().find("Relative error"), nullptr);
+  play("set \"Stop at spp\" 16\nwait idle\n");
+  EXPECT_NE(viewer_->widgets().find("Relative error"), nullptr);
 }
 
 TEST_F(ViewerTest, AWindowWithoutAreaIsNoReasonToStop) {

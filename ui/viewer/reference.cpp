@@ -25,6 +25,7 @@ void ReferenceMaker::start(SessionInput input, std::uint64_t passes) {
   input.noiseLimit.reset();
   input.paused = false;
   input.preview = false;
+  input.noise = false;
   input.settings.auxiliary = false;
   wanted_ = passes;
   input_ = input;

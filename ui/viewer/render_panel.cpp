@@ -94,7 +94,8 @@ ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, Viewer
   if (widgets.slider("Seed", seed, 0, 99, "Another seed, another noise")) s.seed = static_cast<std::uint64_t>(seed);
   limitField(widgets, "Stop at spp", state.passLimit, "Samples per pixel after which rendering rests");
   limitField(widgets, "Stop at s", state.timeLimit, "Seconds after which rendering rests");
-  limitField(widgets, "Stop at REL", state.noiseLimit, "Estimated relative error (root of relMSE) at which it rests");
+  limitField(widgets, "Stop at REL", state.noiseLimit,
+             "Relative error (root of relMSE) below which it rests: looked at after 16, 20, 25, 32, ... spp");
   widgets.checkbox("Pause", state.paused, "P");
   besideIfRoom("Step");
   if (widgets.button("Step", "One pass of a paused rendering (.)")) command = ViewerCommand::kSingleStep;

@@ -10,7 +10,9 @@ void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts) {
   const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);
   if (s.seconds > 0) widgets.text("Speed", formatted("%.2f Mray/s", rays / s.seconds * 1e-6));
   if (std::isfinite(s.relativeError)) {
-    widgets.text("Relative error", formatted("%.4f", s.relativeError), "Estimated from the variance of the samples");
+    widgets.text("Relative error", formatted("%.4f", s.relativeError),
+                 "The root of relMSE is below it with 97 %, as far as the samples tell: looked at after 16, 20, 25, "
+                 "32, ... spp");
   }
   widgets.text("Picture", formatted("%d x %d%s", s.width, s.height, s.preview ? ", preview" : ""));
   if (s.sampler.cut && s.sampler.grid && s.sampler.grid->touched > 0) {

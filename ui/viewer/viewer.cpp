@@ -365,6 +365,7 @@ void Viewer::applyEdits() {
   input.timeLimit = state_.timeLimit;
   input.noiseLimit = state_.noiseLimit;
   input.paused = state_.paused;
+  input.noise = true;
   edited_ = false;
   const bool newScene = applied_.scene != input.scene;
   const bool otherDuel = state_.duel != (duel_ != nullptr) || (state_.duel && state_.opponent != opponent_);

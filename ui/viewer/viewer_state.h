@@ -37,7 +37,7 @@ struct ViewerState {
   RenderSettings settings;  ///< width and height follow the window
   std::optional<std::uint64_t> passLimit;
   std::optional<double> timeLimit;   ///< seconds
-  std::optional<double> noiseLimit;  ///< √relMSE
+  std::optional<double> noiseLimit;  ///< √relMSE, as SessionInput's
   bool paused = false;
   ImageViewSettings display;
   OverlayChoice overlay;

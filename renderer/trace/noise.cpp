@@ -1,4 +1,4 @@
-#include "renderer/measure/noise.h"
+#include "renderer/trace/noise.h"
 
 #include <algorithm>
 #include <cassert>
@@ -19,9 +19,9 @@ struct Moments {
   double n, mean, squares;  ///< squares: Σ (x − mean)²
 };
 
-Moments momentsOf(const FilmState& state, std::size_t pixel, int channel, double unit) {
+Moments momentsOf(const FilmState& state, std::size_t pixel, int channel, double scale) {
   const auto n = static_cast<double>(state.passes);
-  return {n, state.mean[pixel][channel] / unit, square(state.standardError[pixel][channel] / unit) * n * (n - 1)};
+  return {n, scale * state.mean[pixel][channel], square(scale * state.standardError[pixel][channel]) * n * (n - 1)};
 }
 
 /// What is left of the whole without the part. Source: Chan, Golub, LeVeque 1979, the update of two sums, undone.
@@ -36,7 +36,7 @@ Moments rest(const Moments& whole, const Moments& part) {
 double expectedError(const Moments& part, const Moments& whole) {
   const Moments other = rest(whole, part);
   const auto across = [&](const Moments& variance, const Moments& mean) {
-    return variance.squares / (variance.n - 1) / (square(mean.mean) + 0.01);
+    return variance.squares / ((variance.n - 1) * (square(mean.mean) + 0.01));
   };
   return 0.5 * (across(part, other) + across(other, part)) / whole.n;
 }
@@ -51,12 +51,13 @@ double meanOf(const ImageRgb& image) {
 
 NoiseEstimate estimateNoise(const FilmState& part, const FilmState& whole) {
   assert(part.passes >= 2 && whole.passes >= part.passes + 2 && part.mean.size() == whole.mean.size());
-  const double unit = meanOf(whole.mean);  // squares neither overflow nor vanish in it
+  const double unit = meanOf(whole.mean);
   if (!(unit > 0)) return {0, 0};
+  const double scale = 1 / unit;  // squares neither overflow nor vanish
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < whole.mean.size(); ++i) {
     double q = 0;  // of a pixel: its channels share their noise
-    for (int c = 0; c < 3; ++c) q += expectedError(momentsOf(part, i, c, unit), momentsOf(whole, i, c, unit)) / 3;
+    for (int c = 0; c < 3; ++c) q += expectedError(momentsOf(part, i, c, scale), momentsOf(whole, i, c, scale)) / 3;
     sum += q;
     squares += q * q;
   }

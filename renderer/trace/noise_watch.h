@@ -2,8 +2,8 @@
 /// Looks at a rendering's noise now and then, for a limit on it.
 #pragma once
 
-#include "renderer/measure/noise.h"
 #include "renderer/trace/film.h"
+#include "renderer/trace/noise.h"
 
 #include <deque>
 #include <limits>
@@ -11,9 +11,11 @@
 namespace cellcut {
 
 /// After passes 16, 20, 25, 32, 40, 50, 64 …: who looks after every pass stops at the first one that happens to look good.
+/// Keeps 72 bytes per pixel from pass 8 on.
 class NoiseWatch {
  public:
-  /// To be called after every pass.
+  /// To be called after every pass, once or more often. One that begins in the middle knows nothing until it has met half
+  /// of the passes.
   void look(const Film& film);
 
   /// Of the last look; infinite before the first.
@@ -21,7 +23,7 @@ class NoiseWatch {
 
  private:
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  std::deque<FilmState> earlier_;  ///< the last three looks: the oldest has half of the passes
+  std::deque<FilmState> earlier_;  ///< the last looks, up to one with half of the passes
   NoiseEstimate noise_{kUnknown, kUnknown};
 };
 

@@ -1,4 +1,4 @@
-#include "renderer/measure/noise.h"
+#include "renderer/trace/noise.h"
 
 #include "renderer/base/rng.h"
 #include "renderer/measure/metrics.h"
