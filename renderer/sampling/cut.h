@@ -28,6 +28,7 @@ struct LightTrees {
   LightId firstDistant;  ///< lights from this number on are distant
   int exponent;          ///< intensities and estimates are in units of 2^exponent W/sr and W/m²
 
+  const LightTree& of(bool isDistant) const { return isDistant ? distant : local; }
   TreeStatistics statistics() const;
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }

@@ -63,10 +63,6 @@ struct CutWeights {
   }
 };
 
-const LightTree& treeOf(const LightTrees& trees, bool distant) {
-  return distant ? trees.distant : trees.local;
-}
-
 /// Most lights of a cluster that is descended into. The nodes of larger ones are seldom in a cache: with 10⁶ lights
 /// choosing by intensity gives 14 % more noise in two thirds of the time.
 constexpr std::uint32_t kMaxDescentLights = 64;
@@ -74,10 +70,6 @@ constexpr std::uint32_t kMaxDescentLights = 64;
 bool descends(InCluster inCluster, const LightTree& tree, NodeId node) {
   return inCluster == InCluster::kDescent && tree.node(node).leafCount() <= kMaxDescentLights;
 }
-
-}  // namespace
-
-namespace {
 
 /// The choice between the clusters of a cut and, at a glossy surface, the lights that it mirrors.
 class CutChoice {
@@ -129,7 +121,7 @@ class CutChoice {
       pmf = w.nearPmf(i);
     }
     const auto [node, distant, firstLeaf, estimate] = cut_.members()[chosen];
-    const LightTree& tree = treeOf(trees_, distant);
+    const LightTree& tree = trees_.of(distant);
     if (descends(inCluster_, tree, node)) {
       const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, DiffuseImportance{point_}, u);
       if (!leaf) return std::nullopt;
@@ -146,7 +138,7 @@ class CutChoice {
   };
   Place placeOf(LightId light) const {
     const bool distant = light >= trees_.firstDistant;
-    return {distant, treeOf(trees_, distant).leafOf(light)};
+    return {distant, trees_.of(distant).leafOf(light)};
   }
 
   float mixed(double fromCut, double fromMirrored) const {
@@ -155,7 +147,7 @@ class CutChoice {
 
   double pmfFromCut(const Place& at) const {
     const auto [distant, leaf] = at;
-    const LightTree& tree = treeOf(trees_, distant);
+    const LightTree& tree = trees_.of(distant);
     const auto offset = distant ? static_cast<std::uint32_t>(trees_.local.leafCount()) : 0u;
     const std::optional<std::size_t> member = cut_.memberOf(trees_, leaf + offset);
     if (!member) return 0;
@@ -187,19 +179,11 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, In
   return CutChoice(trees, cut, far, inCluster, point).pmf(light);
 }
 
-std::vector<double> clusterPmfs(const LightTrees& trees, const Cut& cut, const FarChoice& far,
-                                const ShadingPoint& point) {
+std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point) {
   std::vector<double> pmfs(cut.size());
   const CutWeights w(cut, far, point);
   if (!(w.sum > 0)) return pmfs;
-  const MirroredLights mirrored(trees, point);
-  const double share = mirrored.share();
-  for (std::size_t i = 0; i < pmfs.size(); ++i) {
-    pmfs[i] = (1 - share) * w.pmf(cut, far, i);
-    if (!(share > 0)) continue;
-    const Cut::Member& m = cut.members()[i];
-    pmfs[i] += share * mirrored.pmf(m.distant, treeOf(trees, m.distant).node(m.node));
-  }
+  for (std::size_t i = 0; i < pmfs.size(); ++i) pmfs[i] = w.pmf(cut, far, i);
   return pmfs;
 }
 

@@ -35,7 +35,7 @@ Floats receiverCosines(Floats cosTheta, Floats cosU, Floats sinU) {
   return hn::IfThenElse(hn::Ge(cosTheta, cosU), hn::Set(kTag, 1.0f), hn::Max(hn::Zero(kTag), bound));
 }
 
-/// localCluster() of cut.cpp for a region of radius 0, times receiverCosine.
+/// localCluster() for a region of radius 0, times receiverCosine.
 Floats weigh(const BlockedFloats& near, std::size_t i, const Vec3& p, const Vec3& n) {
   const auto load = [&](std::size_t field) { return hn::Load(kTag, near.field(field) + i); };
   const auto one = hn::Set(kTag, 1.0f), zero = hn::Zero(kTag), margin = hn::Set(kTag, kCosineMargin);

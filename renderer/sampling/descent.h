@@ -36,13 +36,12 @@ std::optional<SampledLeaf> sampleByDescent(const LightTree& tree, bool distant, 
   return SampledLeaf{tree.node(node).firstLeaf(), pmf};
 }
 
-/// Probability with which that walk comes by the largest node of which `leaf` is the first leaf and which has at most
-/// `leafCount` leaves: the leaf itself, or a cluster. \pre it is below `node`
+/// Probability of that walk to end at a leaf. \pre it is below the node
 template <class Importance>
-double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Importance& importance, std::uint32_t leaf,
-                    std::uint32_t leafCount = 1) {
+double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Importance& importance,
+                    std::uint32_t leaf) {
   double pmf = 1;
-  while (tree.node(node).leafCount() > leafCount) {
+  while (!tree.isLeaf(node)) {
     const double left = importance(tree, distant, tree.left(node)), right = importance(tree, distant, tree.right(node));
     if (!(left + right > 0)) return 0;
     const bool toLeft = leaf < tree.node(tree.right(node)).firstLeaf();
@@ -69,18 +68,17 @@ class TreesDescent {
     const double toLocal = local_ / sum();
     const bool distant = !(u < toLocal);
     const double share = distant ? distant_ / sum() : toLocal;
-    const LightTree& tree = distant ? trees_.distant : trees_.local;
+    const LightTree& tree = trees_.of(distant);
     const double rest = std::min((distant ? u - toLocal : u) / share, kAlmostOne);
     const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, tree.root(), importance_, rest);
     if (!leaf) return std::nullopt;
     return SampledLight{tree.light(leaf->leaf), static_cast<float>(share * leaf->pmf)};
   }
 
-  /// As pmfByDescent(). \pre sum() > 0
-  double pmf(bool distant, std::uint32_t leaf, std::uint32_t leafCount = 1) const {
-    const LightTree& tree = distant ? trees_.distant : trees_.local;
-    const double share = (distant ? distant_ : local_) / sum();
-    return share * pmfByDescent(tree, distant, tree.root(), importance_, leaf, leafCount);
+  /// \pre sum() > 0
+  double pmf(bool distant, std::uint32_t leaf) const {
+    const LightTree& tree = trees_.of(distant);
+    return (distant ? distant_ : local_) / sum() * pmfByDescent(tree, distant, tree.root(), importance_, leaf);
   }
 
  private:

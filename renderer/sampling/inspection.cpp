@@ -1,6 +1,7 @@
 #include "renderer/sampling/inspection.h"
 
 #include "renderer/sampling/facing.h"
+#include "renderer/sampling/mirrored_lights.h"
 
 namespace cellcut {
 
@@ -62,7 +63,8 @@ CutSummary CutInspector::summaryOfCell(const CellCoordinates& cell) const {
 std::vector<ClusterInspection> CutInspector::clusters(const Cut& cut, const ShadingPoint& point) const {
   const std::size_t facing = facingOf(point.n);
   const FarChoice* kept = cut.farCount() > 0 ? cut.farChoice(facing) : nullptr;
-  const std::vector<double> pmfs = clusterPmfs(*strategy_.trees, cut, kept ? *kept : cut.makeFarChoice(facing), point);
+  const std::vector<double> pmfs =
+      kept ? clusterPmfs(cut, *kept, point) : clusterPmfs(cut, cut.makeFarChoice(facing), point);
   std::vector<ClusterInspection> clusters;
   clusters.reserve(cut.size());
   for (std::size_t i = 0; i < cut.size(); ++i) {
@@ -104,6 +106,10 @@ CutInspection CutInspector::inspect(const ShadingPoint& point) const {
     result.clusters = clusters(cutFor(*result.cell), point);
   }
   return result;
+}
+
+double CutInspector::mirroredShare(const ShadingPoint& point) const {
+  return MirroredLights(*strategy_.trees, point).share();
 }
 
 std::vector<LightId> CutInspector::lights(const ClusterInspection& cluster) const {

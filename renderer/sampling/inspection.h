@@ -25,7 +25,7 @@ struct ClusterInspection {
   Cone directions;           ///< distant clusters: where their lights lie as seen from the scene; else not set
   int depth;                 ///< of its node in its tree; 0 is the root
   double estimate;           ///< of the irradiance of a surface that faces it, W/m² (luminance)
-  double probability;        ///< that the strategy goes into it at the point; sums to 1 over the cut, or all are 0
+  double probability;        ///< that a choice by the cut goes into it at the point; Σ is 1, or all are 0
 };
 
 /// The cut that a light is chosen from at a point.
@@ -66,6 +66,8 @@ class CutInspector {
   CutSummary summaryOfCell(const CellCoordinates& cell) const;
 
   CutInspection inspect(const ShadingPoint& point) const;
+  /// MirroredLights::share(): of the samples at a point, those that go by its lobe and not by the cut.
+  double mirroredShare(const ShadingPoint& point) const;
   /// The lights of a cluster, in the order of its leaves.
   std::vector<LightId> lights(const ClusterInspection& cluster) const;
 

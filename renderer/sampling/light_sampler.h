@@ -20,7 +20,7 @@ class CellTable;
 /// The GGX reflection of a surface, for choices that ask where it comes from.
 struct GlossyLobe {
   Vec3 wo{0};       ///< unit, world space: where the light is to go
-  float alpha = 1;  ///< of the microfacets
+  float alpha = 1;  ///< of the microfacets, > 0
   float share = 0;  ///< of all reflected light, by albedos for wo; 0: there is no such reflection
 };
 

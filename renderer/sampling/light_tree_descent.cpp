@@ -16,7 +16,7 @@ class LightTreeSampler final : public LightSampler {
 
   float pmf(const ShadingPoint& point, LightId light) const override {
     const bool distant = light >= trees_.firstDistant;
-    const std::uint32_t leaf = (distant ? trees_.distant : trees_.local).leafOf(light);
+    const std::uint32_t leaf = trees_.of(distant).leafOf(light);
     const auto descent = descentAt(point);
     if (leaf == LightTree::kNoLeaf || !(descent.sum() > 0)) return 0;
     return static_cast<float>(descent.pmf(distant, leaf));

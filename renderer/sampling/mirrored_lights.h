@@ -16,6 +16,7 @@ namespace cellcut {
 class MirroredImportance {
  public:
   explicit MirroredImportance(const ShadingPoint& point);
+
   double operator()(const LightTree& tree, bool distant, NodeId node) const;
 
  private:
@@ -35,10 +36,6 @@ class MirroredLights {
   std::optional<SampledLight> sample(double u) const { return descent_->sample(u); }
   /// \pre share() > 0
   double pmf(bool distant, std::uint32_t leaf) const { return descent_->pmf(distant, leaf); }
-  /// Of coming by a node. \pre share() > 0
-  double pmf(bool distant, const LightTreeNode& node) const {
-    return descent_->pmf(distant, node.firstLeaf(), node.leafCount());
-  }
 
  private:
   std::optional<TreesDescent<MirroredImportance>> descent_;

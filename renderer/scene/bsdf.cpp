@@ -20,11 +20,16 @@ Bsdf::Bsdf(const BsdfParameters& p)
   diffuse_ *= mean < 1 ? 1 / (1 - mean) : 0.0f;
 }
 
-float Bsdf::reflectionProbability(Vec2 albedo) const {
-  if (!reflects_) return 0;
+float Bsdf::reflectionShare(Vec2 albedo) const {
   const float reflection = glm::dot(Vec2(luminance(f0_), f90_), albedo);
   const float base = luminance(diffuse_) * kPi * (1 - glm::dot(layer_, albedo));
-  return base > 0 ? std::clamp(reflection / (reflection + base), 0.1f, 0.9f) : 1.0f;
+  return base > 0 ? reflection / (reflection + base) : 1.0f;
+}
+
+float Bsdf::reflectionProbability(Vec2 albedo) const {
+  if (!reflects_) return 0;
+  const float share = reflectionShare(albedo);
+  return share < 1 ? std::clamp(share, 0.1f, 0.9f) : 1.0f;
 }
 
 Bsdf::Value Bsdf::eval(const Vec3& wo, const Vec3& wi) const {

@@ -40,12 +40,13 @@ class Bsdf {
   /// Nothing when the sampled direction is below the surface or reflects nothing.
   /// \param uLobe chooses between base and reflection
   std::optional<BsdfSample> sample(const Vec3& wo, float uLobe, Vec2 u) const;
-  /// Probability with which sample() takes the reflection: about its share of all that is reflected.
-  float reflectionShare(const Vec3& wo) const { return reflects_ ? reflectionProbability(albedo_(wo.z)) : 0.0f; }
+  /// The reflection's part of all that is reflected towards wo, by albedos; [0, 1].
+  float reflectionShare(const Vec3& wo) const { return reflects_ ? reflectionShare(albedo_(wo.z)) : 0.0f; }
   float alpha() const { return alpha_; }
 
  private:
   /// \param albedo  GgxAlbedo of the direction
+  float reflectionShare(Vec2 albedo) const;
   float reflectionProbability(Vec2 albedo) const;
 
   Vec3 diffuse_;  ///< scaled: see the constructor

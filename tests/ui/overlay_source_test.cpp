@@ -1,6 +1,7 @@
 #include "ui/viewer/overlay_source.h"
 
 #include "renderer/trace/session.h"
+#include "tests/support/own_threads.h"
 #include "tests/support/scenes.h"
 
 #include <array>
@@ -63,6 +64,7 @@ class OverlaySourceTest : public testing::Test {
     session_.waitIdle();
   }
 
+  OnlyOwnThreads onlyOwnThreads_;
   alignas(Scene) std::array<std::byte, sizeof(Scene)> place_;
   SessionInput input_;
   OverlaySource source_;

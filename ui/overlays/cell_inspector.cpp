@@ -68,7 +68,8 @@ Json toJson(const ClusterRow& row) {
 Json cutToJson(const PixelReport& report) {
   Json cut{{"cell", nullptr},           {"box", toJson(report.cellBox)},       {"touched", report.kept},
            {"visits", report.visits},   {"size", report.clusters.size()},      {"unoccluded", report.unoccluded},
-           {"visible", report.visible}, {"distance", orNull(report.distance)}, {"clusters", Json::array()}};
+           {"visible", report.visible}, {"distance", orNull(report.distance)}, {"mirrored", report.mirrored},
+           {"clusters", Json::array()}};
   if (report.cell) cut["cell"] = {report.cell->x, report.cell->y, report.cell->z};
   for (const ClusterRow& row : report.clusters) cut["clusters"].push_back(toJson(row));
   return cut;
@@ -87,6 +88,7 @@ std::optional<PixelReport> inspectPixel(const InspectionInputs& inputs, glm::ive
   if (!report.hit.hit() || !inspector) return report;
 
   const CutInspection cut = inspector->inspect(report.hit.point);
+  report.mirrored = inspector->mirroredShare(report.hit.point);
   report.cell = cut.cell;
   report.cellBox = cut.cellBox;
   report.kept = cut.kept;

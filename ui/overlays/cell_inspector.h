@@ -34,6 +34,7 @@ struct PixelReport {
   bool kept = false;                    ///< a path touched the cell
   std::uint64_t visits = 0;             ///< SamplerSettings::countVisits
   std::vector<ClusterRow> clusters;     ///< its number is the cut size
+  double mirrored = 0;                  ///< share of the samples that follow what the surface mirrors, and no cluster
   double unoccluded = 0;                ///< Σ over clusters, W/m²
   double visible = 0;
   /// ½ Σ |mismatch|, the total variation distance between choice and truth: 0 perfect, 1 hopeless. Nothing where no

@@ -121,6 +121,10 @@ ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, Vie
   } else {
     if (report.cell) widgets.text("Cell", cellText(*report.cell) + (report.kept ? "" : " (not touched)"));
     widgets.text("Clusters", std::to_string(report.clusters.size()), "In the cut of the cell");
+    if (report.mirrored > 0) {
+      widgets.text("By mirror", shortNumber(100 * report.mirrored, 3) + " %",
+                   "Samples that go by what the glossy surface mirrors; the table is of the others");
+    }
     if (report.distance) {
       widgets.text(
           "Mismatch", shortNumber(*report.distance, 3),

@@ -251,15 +251,21 @@ TEST_F(MeasureTest, NoisyReferenceIsRefused) {
 }
 
 TEST_F(MeasureTest, GivenReferenceIsJudgedToo) {
-  ASSERT_EQ(measure("a").code, kDone);
-  auto given = arguments("b", {"--reference", path("a/images/hall-20-depth2.reference.exr")});
+  // Not of hall, whose tiny emitters are seen directly: the error of a reference of 256 passes is one of luck.
+  const auto ofRooms = [&](const std::string& output, const std::vector<std::string>& more) {
+    auto args = arguments(output, more);
+    *std::find(args.begin(), args.end(), "hall") = "rooms";
+    return args;
+  };
+  ASSERT_EQ(run(ofRooms("a", {})).code, kDone);
+  auto given = ofRooms("b", {"--reference", path("a/images/rooms-20-depth2.reference.exr")});
   const auto passes = std::find(given.begin(), given.end(), "--reference-spp");
   given.erase(passes, passes + 2);
   ASSERT_EQ(run(given).code, kDone);
   EXPECT_EQ(errorsOf(results("a")), errorsOf(results("b")));
   EXPECT_LT(results("b").at("cases").at(0).at("reference").at("relmse"),
             results("b").at("runs").at(0).at("checkpoints").at(3).at("relmse"));
-  given = arguments("c", {"--reference", path("a/images/hall-20-depth2.cell-cut.exr"), "--seed", "7"});
+  given = ofRooms("c", {"--reference", path("a/images/rooms-20-depth2.cell-cut.exr"), "--seed", "7"});
   given.erase(std::find(given.begin(), given.end(), "--reference-spp"),
               std::find(given.begin(), given.end(), "--reference-spp") + 2);
   const Outcome outcome = run(given);
