@@ -2,7 +2,9 @@
 
 #include "app/numbers.h"
 #include "renderer/base/error.h"
+#include "renderer/measure/quality_choice.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -14,6 +16,8 @@
 
 namespace cellcut {
 namespace {
+
+constexpr std::string_view kAutoQuality = "auto";
 
 /// An option whose text goes through a function of ours: the parser's own conversions read "010" as eight and "1e3x" as
 /// a thousand.
@@ -109,30 +113,51 @@ void addSampling(CLI::App& verb, RenderSettings& s) {
   addText(verb, "--threads", "T", threads, "0 is one per hardware thread (default); the picture is the same for any");
 }
 
-void addCuts(CLI::App& verb, SamplerSettings& s) {
+void setQuality(RenderOptions& o, const std::string& name, bool autoQuality) {
+  o.candidates.clear();
+  if (autoQuality && name == kAutoQuality) {
+    o.candidates = autoQualities();
+    o.settings.sampler = o.candidates[0].settings;
+  } else {
+    o.settings.sampler = parseQuality("--quality", name, autoQuality ? kAutoQuality : "").settings;
+  }
+}
+
+/// An option that wins over the preset, and over those that --quality auto tries.
+template <class Parse>
+void addExplicit(CLI::App& verb, RenderOptions& o, const std::string& name, const std::string& type,
+                 const std::string& description, const Parse& parse) {
+  const auto use = [&o, parse](const std::string& text) {
+    parse(o.settings.sampler, text);
+    for (Quality& candidate : o.candidates) parse(candidate.settings, text);
+  };
+  addText(verb, name, type, use, description);
+}
+
+void addCuts(CLI::App& verb, RenderOptions& o, bool autoQuality) {
+  const SamplerSettings& defaults = o.settings.sampler;
   // Options are applied in the order in which they are declared here, whatever their order on the command line: an
   // explicit one wins over the preset.
   addText(
-      verb, "--quality", "NAME", [&s](const std::string& t) { s = parseQuality("--quality", t).settings; },
+      verb, "--quality", "NAME", [&o, autoQuality](const std::string& t) { setQuality(o, t, autoQuality); },
       "Preset of the next four options; see below (default balanced)");
-  const auto threshold = [&s](const std::string& t) { s.threshold = parseThreshold("--threshold", t); };
-  addText(verb, "--threshold", "X", threshold, "Split clusters above this share of a cut's estimate (default 0.002)");
-  const auto maxCut = [&s](const std::string& t) { s.maxCut = parseMaxCut("--max-cut", t); };
-  addText(verb, "--max-cut", "K", maxCut, "Most clusters of a cut (default " + std::to_string(s.maxCut) + ")");
-  const auto resolution = [&s](const std::string& t) {
-    s.gridResolution = parseGridResolution("--grid-resolution", t);
-  };
-  addText(verb, "--grid-resolution", "R", resolution,
-          "Cells along the longest axis of what is seen (default " + std::to_string(s.gridResolution) + ")");
-  addText(
-      verb, "--in-cluster", "intensity|descent",
-      [&s](const std::string& t) { s.inCluster = parseInCluster("--in-cluster", t); },
-      "How a light is chosen inside a cluster (default descent)");
-  const auto memory = [&s](const std::string& t) {
-    s.cellMemory = static_cast<std::size_t>(parseWhole("--cell-memory", t, {.most = kMaxCellMegabytes})) << 20;
-  };
-  addText(verb, "--cell-memory", "MB", memory,
-          "Kept cuts; beyond it the same are found again, slower (default " + std::to_string(s.cellMemory >> 20) + ")");
+  addExplicit(verb, o, "--threshold", "X", "Split clusters above this share of a cut's estimate (default 0.002)",
+              [](SamplerSettings& s, const std::string& t) { s.threshold = parseThreshold("--threshold", t); });
+  addExplicit(verb, o, "--max-cut", "K", "Most clusters of a cut (default " + std::to_string(defaults.maxCut) + ")",
+              [](SamplerSettings& s, const std::string& t) { s.maxCut = parseMaxCut("--max-cut", t); });
+  addExplicit(
+      verb, o, "--grid-resolution", "R",
+      "Cells along the longest axis of what is seen (default " + std::to_string(defaults.gridResolution) + ")",
+      [](SamplerSettings& s, const std::string& t) { s.gridResolution = parseGridResolution("--grid-resolution", t); });
+  addExplicit(verb, o, "--in-cluster", "intensity|descent", "How a light is chosen inside a cluster (default descent)",
+              [](SamplerSettings& s, const std::string& t) { s.inCluster = parseInCluster("--in-cluster", t); });
+  addExplicit(verb, o, "--cell-memory", "MB",
+              "Kept cuts; beyond it the same are found again, slower (default " +
+                  std::to_string(defaults.cellMemory >> 20) + ")",
+              [](SamplerSettings& s, const std::string& t) {
+                s.cellMemory = static_cast<std::size_t>(parseWhole("--cell-memory", t, {.most = kMaxCellMegabytes}))
+                               << 20;
+              });
 }
 
 }  // namespace
@@ -196,13 +221,21 @@ InCluster parseInCluster(const std::string& option, const std::string& name) {
   throw InputError(option, "'" + name + "' is none of intensity, descent");
 }
 
-const Quality& parseQuality(const std::string& option, const std::string& name) {
-  std::string known;
+const Quality& parseQuality(const std::string& option, const std::string& name, std::string_view alsoKnown) {
+  std::string known(alsoKnown);
   for (const Quality& q : kQualities) {
     if (q.name == name) return q;
     known += (known.empty() ? "" : ", ") + std::string(q.name);
   }
   throw InputError(option, "'" + name + "' is none of " + known);
+}
+
+std::string pinningOptions(const SamplerSettings& s) {
+  std::array<char, 32> threshold{};  // the shortest that is read back as the same number
+  char* const end = std::to_chars(threshold.data(), threshold.data() + threshold.size(), s.threshold).ptr;
+  return "--threshold " + std::string(threshold.data(), end) + " --max-cut " + std::to_string(s.maxCut) +
+         " --grid-resolution " + std::to_string(s.gridResolution) + " --in-cluster " +
+         (s.inCluster == InCluster::kDescent ? "descent" : "intensity");
 }
 
 float parseThreshold(const std::string& option, const std::string& text) {
@@ -221,21 +254,33 @@ int parseMaxDepth(const std::string& option, const std::string& text) {
   return static_cast<int>(parseWhole(option, text, {.most = kMaxDepthLimit}));
 }
 
+namespace {
+
+void addSettings(CLI::App& verb, RenderOptions& options, bool autoQuality) {
+  addSampling(verb, options.settings);
+  addCuts(verb, options, autoQuality);
+  addView(verb, options);
+}
+
+void addPicture(CLI::App& verb, RenderOptions& options, bool autoQuality) {
+  addStopRule(verb, options.stop);
+  addStrategy(verb, options.settings);
+  addSettings(verb, options, autoQuality);
+}
+
+}  // namespace
+
 void addRenderOptions(CLI::App& verb, RenderOptions& options) {
   addFiles(verb, options);
-  addPictureOptions(verb, options);
+  addPicture(verb, options, true);
 }
 
 void addPictureOptions(CLI::App& verb, RenderOptions& options) {
-  addStopRule(verb, options.stop);
-  addStrategy(verb, options.settings);
-  addSettingOptions(verb, options);
+  addPicture(verb, options, false);
 }
 
 void addSettingOptions(CLI::App& verb, RenderOptions& options) {
-  addSampling(verb, options.settings);
-  addCuts(verb, options.settings.sampler);
-  addView(verb, options);
+  addSettings(verb, options, false);
 }
 
 void requireMemory(const RenderSettings& settings) {

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -31,7 +33,8 @@ struct RenderOptions {
   RenderSettings settings;  ///< `camera` is filled in when the scene is known: findCamera()
   LoadOptions load;
   EnvironmentOptions environment;
-  std::string camera;  ///< name or index; empty: the first
+  std::string camera;               ///< name or index; empty: the first
+  std::vector<Quality> candidates;  ///< of --quality auto, with the explicit options in each; empty: nothing is tried
 };
 
 inline constexpr int kMaxPictureSide = 16384;                 // as kMaxImagePixels: what we write we can read
@@ -45,7 +48,7 @@ inline constexpr std::uint64_t kMaxPasses = 1u << 30;      // film sums are prov
 /// Parsing throws InputError for a value that cannot be used.
 void addRenderOptions(CLI::App& verb, RenderOptions& options);
 
-/// The same without SCENE, --output and --report: what says how a picture is made and not where it goes.
+/// The same without SCENE, --output, --report and --quality auto: what says how a picture is made and not where it goes.
 void addPictureOptions(CLI::App& verb, RenderOptions& options);
 
 /// The same without --strategy and without the options that say when to stop.
@@ -57,7 +60,10 @@ void addLoadLimits(CLI::App& verb, LoadLimits& limits);
 /// The value of an option as the options above read it. \throws InputError that names `option` and lists what is known
 Strategy parseStrategy(const std::string& option, const std::string& name);
 InCluster parseInCluster(const std::string& option, const std::string& name);
-const Quality& parseQuality(const std::string& option, const std::string& name);
+/// \param alsoKnown  a name that the caller knows, for the list
+const Quality& parseQuality(const std::string& option, const std::string& name, std::string_view alsoKnown = "");
+/// The options that set these of the qualities' settings, whatever preset stands before them.
+std::string pinningOptions(const SamplerSettings& settings);
 float parseThreshold(const std::string& option, const std::string& text);
 int parseMaxCut(const std::string& option, const std::string& text);
 int parseGridResolution(const std::string& option, const std::string& text);

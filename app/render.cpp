@@ -6,9 +6,13 @@
 #include "app/stopwatch.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
+#include "renderer/measure/quality_choice.h"
 #include "renderer/trace/noise_watch.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,6 +26,12 @@ constexpr const char* kExplanations = R"(
 Noise: rendering stops when the root of relMSE (see compare) against the unknown truth is below REL with 97 %, as far
 as the samples tell. It is looked at after 16, 20, 25, 32, 40, 50, 64, ... passes.
 
+Quality auto tries balanced, its clusters by intensity, preview and accurate on small films for up to 5 % of --time, or
+of the time that --spp will take, or for half a second with --noise. Balanced stays unless another has less relMSE ×
+seconds beyond doubt (95 %), and so it does when the rendering is too short to tell. The trials come before the seconds
+of --time and their samples are thrown away; what they take, what they measured and the options that make the same
+picture again are reported. Explicit options hold in all that is tried.
+
 Blender's exporter multiplies point, spot and directional lights by 683 (lumen per watt) and emissive surfaces not:
 --punctual-scale blender undoes it.
 
@@ -31,6 +41,7 @@ a second one quits at once. Exit codes: 0 done, 2 bad usage or input, 1 anything
 Examples:
   cellcut render room.glb -o room.png
   cellcut render room.glb -o room.exr --time 60 --report room.json
+  cellcut render room.glb -o room.exr --time 600 --quality auto
   cellcut render lamp.obj -o lamp.exr --environment sky.hdr --environment-rotation 90
   cellcut render blender.glb -o direct.png --max-depth 1 --punctual-scale blender)";
 
@@ -43,6 +54,7 @@ std::string helpText() {
   for (const Quality& quality : kQualities) {
     text += "  " + std::string(quality.name) + ": " + std::string(quality.description) + "\n";
   }
+  text += "  auto: the best of some settings that are tried on the scene\n";
   return text + kExplanations;
 }
 
@@ -77,6 +89,27 @@ double renderPasses(Renderer& renderer, const StopRule& rule, const std::atomic<
   return state.seconds;
 }
 
+PlannedLength plannedLength(const StopRule& rule) {
+  switch (rule.kind) {
+    case StopRule::Kind::kPasses:
+      return {.passes = rule.passes};
+    case StopRule::Kind::kSeconds:
+      return {.seconds = rule.seconds};
+    case StopRule::Kind::kNoise:
+      break;
+  }
+  return {};
+}
+
+void showQuality(const QualityChoice& choice, std::ostream& err) {
+  const auto compared = std::count_if(choice.trials.begin(), choice.trials.end(),
+                                      [](const QualityTrial& t) { return std::isfinite(t.inefficiency.value); });
+  const std::string trials =
+      compared < 2 ? "nothing compared in " : std::to_string(compared) + " settings compared in ";
+  err << "cellcut: quality " << choice.chosen.name << ", " << trials << formatDuration(choice.seconds)
+      << "; the same again: " << pinningOptions(choice.chosen.settings) << '\n';
+}
+
 void showOutcome(const RenderRecord& record, std::ostream& err) {
   const BadSamples bad = record.renderer.film().badSamples();
   if (bad.nan + bad.inf > 0) {
@@ -104,13 +137,19 @@ int renderPicture(const RenderOptions& options, const Console& console) {
   Renderer renderer(scene, settings);
   times.build = building.seconds();
 
+  std::optional<QualityChoice> quality;
+  if (!options.candidates.empty()) {
+    quality = chooseQuality(renderer, options.candidates, plannedLength(options.stop), interrupt.requested());
+    showQuality(*quality, console.err);
+  }
+
   Progress progress(console.err, console.terminal);
   times.render = renderPasses(renderer, options.stop, interrupt.requested(), progress);
   if (renderer.film().passes() == 0) {
     console.err << "cellcut: interrupted before the first pass was complete; nothing was written\n";
     return kFailed;
   }
-  const RenderRecord record{options, scene, renderer, times, interrupt.requested()};
+  const RenderRecord record{options, scene, renderer, times, interrupt.requested(), quality ? &*quality : nullptr};
   writePicture(options.output, renderer.film(), pictureMetadata(record, console.commandLine));
   if (options.report) {
     const std::string report = renderReport(record).dump(2) + "\n";

@@ -37,6 +37,25 @@ void addStatistics(nlohmann::ordered_json& report, const SamplerStatistics& stat
   }
 }
 
+nlohmann::ordered_json toJson(const QualityChoice& choice) {
+  nlohmann::ordered_json trials = nlohmann::ordered_json::array();
+  for (const QualityTrial& t : choice.trials) {
+    trials.push_back({{"name", t.quality.name},
+                      {"options", pinningOptions(t.quality.settings)},
+                      {"passes", t.passes},
+                      {"seconds", t.seconds},
+                      {"seconds_pass", t.passSeconds},
+                      {"seconds_build", t.buildSeconds},
+                      {"relative_variance", t.relativeVariance},
+                      {"inefficiency", t.inefficiency.value},
+                      {"inefficiency_low", t.inefficiency.low},
+                      {"inefficiency_high", t.inefficiency.high}});
+  }
+  return {{"chosen", choice.chosen.name},
+          {"options", pinningOptions(choice.chosen.settings)},
+          {"trials", std::move(trials)}};
+}
+
 }  // namespace
 
 std::size_t peakResidentBytes() {
@@ -64,6 +83,7 @@ nlohmann::ordered_json renderReport(const RenderRecord& record) {
   report["scene"] = record.options.scene.string();
   report["seconds_load"] = record.times.load;
   report["seconds_build"] = record.times.build;
+  if (record.quality) report["seconds_quality"] = record.quality->seconds;
   report["seconds_render"] = record.times.render;
   report["passes"] = renderer.film().passes();
   report["spp"] = renderer.film().passes();
@@ -73,6 +93,7 @@ nlohmann::ordered_json renderReport(const RenderRecord& record) {
   report["max_depth"] = settings.maxDepth;
   report["strategy"] = nameOf(settings.strategy);
   report["sampler"] = nameOf(settings.sampling);
+  if (record.quality) report["quality"] = toJson(*record.quality);
   report["seed"] = settings.seed;
   report["threads"] = renderer.threads();
   report["rays"] = {{"camera", rays.camera}, {"bounce", rays.bounce}, {"shadow", rays.shadow}};

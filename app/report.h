@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/options.h"
+#include "renderer/measure/quality_choice.h"
 
 #include <cstddef>
 #include <map>
@@ -26,6 +27,7 @@ struct RenderRecord {
   const Renderer& renderer;
   RenderTimes times;
   bool interrupted = false;
+  const QualityChoice* quality = nullptr;  ///< of --quality auto
 };
 
 /// The keys are a contract: later work adds some and renames none. Numbers that are not finite become null.

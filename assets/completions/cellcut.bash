@@ -39,6 +39,7 @@ _cellcut_render() {
   case $prev in
     -o | --output) _cellcut_files 'exr|pfm|png' ;;
     --report) _cellcut_files 'json' ;;
+    --quality) _cellcut_words 'preview balanced accurate auto' ;;
     *) _cellcut_picture_value || _cellcut_scene_or "-o --output --report $_cellcut_picture_options" ;;
   esac
 }

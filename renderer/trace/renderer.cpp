@@ -3,6 +3,8 @@
 #include "renderer/trace/pass_renderer.h"
 
 #include <cassert>
+#include <chrono>
+#include <utility>
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -10,44 +12,65 @@
 
 namespace cellcut {
 
-struct Renderer::State {
-  RenderSettings settings;
-  tbb::task_arena arena;
-  Film film;
+/// What all renderers of a scene share.
+struct Renderer::Base {
+  tbb::task_arena arena;  ///< comes before Embree's device, which would otherwise set limits for it
   PreparedScene prepared;
-  std::unique_ptr<LightSampler> sampler;
-  PassRenderer passes;
 
-  State(const Scene& s, const RenderSettings& r);
+  Base(const Scene& scene, int threads)
+      : arena(threads > 0 ? threads : tbb::task_arena::automatic),
+        prepared(arena.execute([&] { return PreparedScene(scene); })) {}
 };
 
-Renderer::State::State(const Scene& s, const RenderSettings& r)
-    : settings(r),
-      // The arena comes before Embree's device, which would otherwise set limits for it.
-      arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic),
-      film(r.width, r.height, r.auxiliary),
-      prepared(arena.execute([&] { return PreparedScene(s); })),
-      sampler(arena.execute([&] { return makeLightSampler(prepared, r); })),
-      passes(prepared, *sampler, r, film) {}
+struct Renderer::State {
+  RenderSettings settings;
+  std::shared_ptr<Base> base;
+  std::shared_ptr<const LightSampler> sampler;
+  Film film;
+  PassRenderer passes;
+
+  State(const RenderSettings& r, std::shared_ptr<Base> b, std::shared_ptr<const LightSampler> s)
+      : settings(r),
+        base(std::move(b)),
+        sampler(s ? std::move(s) : base->arena.execute([&] { return makeLightSampler(base->prepared, r); })),
+        film(r.width, r.height, r.auxiliary),
+        passes(base->prepared, *sampler, r, film) {}
+};
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings) {
   assert(settings.camera < scene.cameras.size());
-  state_ = std::make_unique<State>(scene, settings);
+  state_ = std::make_unique<State>(settings, std::make_shared<Base>(scene, settings.threads), nullptr);
 }
 
+Renderer::Renderer(const Renderer& other, const RenderSettings& settings) {
+  const State& o = *other.state_;
+  state_ = std::make_unique<State>(settings, o.base, haveSameSampler(o.settings, settings) ? o.sampler : nullptr);
+}
+
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-bool Renderer::renderPass(const std::atomic<bool>& cancel) {
+bool Renderer::renderPass(const std::atomic<bool>& cancel, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto isOver = [&] { return std::chrono::duration<double>(Clock::now() - start).count() >= seconds; };
   State& s = *state_;
   s.passes.startPass();
+  std::atomic<bool> late = false;
   bool committed = false;
-  s.arena.execute([&] {
+  s.base->arena.execute([&] {
     const tbb::blocked_range<int> all(0, s.passes.tileCount());
     const auto renderTiles = [&](const tbb::blocked_range<int>& tiles) {
-      for (int tile = tiles.begin(); tile < tiles.end(); ++tile) s.passes.renderTile(tile, cancel);
+      for (int tile = tiles.begin(); tile < tiles.end(); ++tile) {
+        if (late || isOver())
+          late = true;
+        else
+          s.passes.renderTile(tile, cancel);
+      }
     };
     tbb::parallel_for(all, renderTiles, tbb::simple_partitioner());
-    committed = !cancel.load();
+    committed = !cancel.load() && !late.load();
     if (committed) s.film.commit();
   });
   if (committed) s.passes.keepCounts();
@@ -70,15 +93,15 @@ SamplerStatistics Renderer::samplerStatistics() const {
   return state_->sampler->statistics();
 }
 int Renderer::threads() const {
-  return state_->arena.max_concurrency();
+  return state_->base->arena.max_concurrency();
 }
 
 LightCounts Renderer::lightCounts() const {
-  return state_->prepared.lights.counts();
+  return state_->base->prepared.lights.counts();
 }
 
 MemoryUse Renderer::memory() const {
-  const PreparedScene& prepared = state_->prepared;
+  const PreparedScene& prepared = state_->base->prepared;
   return {prepared.scene.bytes(), prepared.accel.bytes(), prepared.lights.bytes() + state_->sampler->bytes(),
           state_->film.bytes()};
 }

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace cellcut {
@@ -26,11 +27,17 @@ class Renderer {
   /// Builds the ray-tracing structure, the lights and the strategy. The scene must outlive the renderer.
   /// \pre the settings are within their ranges and `camera` exists
   Renderer(const Scene& scene, const RenderSettings& settings);
+  /// Another film of the same scene, by the same threads and structures, and by the same strategy with all that it has
+  /// found where the settings allow it: haveSameSampler(). One of them renders at a time.
+  /// \pre as above; `settings.threads` is not looked at
+  Renderer(const Renderer& other, const RenderSettings& settings);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// One more sample per pixel. Returns false, with the film as it was, when `cancel` became true first.
-  /// The film is bit for bit the same on any number of threads.
-  bool renderPass(const std::atomic<bool>& cancel);
+  /// One more sample per pixel. Returns false, with the film as it was, when `cancel` became true first, or when it takes
+  /// more than `seconds`, looked at before every tile. The film is bit for bit the same on any number of threads.
+  bool renderPass(const std::atomic<bool>& cancel, double seconds = std::numeric_limits<double>::infinity());
 
   const Film& film() const;
   const RenderSettings& settings() const;
@@ -45,6 +52,7 @@ class Renderer {
   int threads() const;
 
  private:
+  struct Base;
   struct State;
   std::unique_ptr<State> state_;
 };

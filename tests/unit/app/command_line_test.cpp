@@ -143,6 +143,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   const std::string script(std::istreambuf_iterator<char>(file), {});
   for (const StrategyName& s : kStrategies) EXPECT_THAT(script, HasSubstr(std::string(s.name)));
   for (const Quality& q : kQualities) EXPECT_THAT(script, HasSubstr(std::string(q.name)));
+  EXPECT_THAT(script, HasSubstr("preview balanced accurate auto"));
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string& verb : allVerbs()) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render measure compare generate info"));
@@ -283,6 +284,31 @@ TEST_F(VerbsOnAScene, NoiseStopsWhenTheEstimateIsBelow) {
   ASSERT_EQ(render("a.pfm", {"--noise", "0.5", "--report", path("report.json")}).code, kDone);
   EXPECT_LT(report().at("relative_error"), 0.5);
   EXPECT_GE(report().at("passes"), 16);
+}
+
+TEST_F(VerbsOnAScene, QualityAutoReportsWhatItChoseAndTheOptionsThatPinIt) {
+  const Outcome outcome =
+      render("auto.pfm", {"--spp", "500", "--quality", "auto", "--seed", "9", "--report", path("report.json")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  const auto json = report();
+  const std::string options = json.at("quality").at("options");
+  EXPECT_THAT(outcome.err, HasSubstr("quality " + json.at("quality").at("chosen").get<std::string>()));
+  EXPECT_THAT(outcome.err, HasSubstr(options));
+  EXPECT_EQ(json.at("passes"), 500);  // none of them a trial's
+  EXPECT_GE(json.at("seconds_quality"), 0);
+  ASSERT_EQ(json.at("quality").at("trials").size(), 4u);
+  for (const auto& trial : json.at("quality").at("trials")) {
+    for (const char* key : {"name", "options", "passes", "seconds", "seconds_pass", "seconds_build",
+                            "relative_variance", "inefficiency", "inefficiency_low", "inefficiency_high"}) {
+      EXPECT_TRUE(trial.contains(key)) << key;
+    }
+  }
+  std::vector<std::string> pinned{"--spp", "500", "--seed", "9", "--report", path("report.json")};
+  std::istringstream words(options);
+  for (std::string word; words >> word;) pinned.push_back(word);
+  ASSERT_EQ(render("pinned.pfm", pinned).code, kDone);
+  EXPECT_TRUE(contents("auto.pfm") == contents("pinned.pfm"));
+  EXPECT_FALSE(report().contains("quality"));
 }
 
 TEST_F(VerbsOnAScene, UnknownCameraListsTheCameras) {

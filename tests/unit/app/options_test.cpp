@@ -4,6 +4,8 @@
 #include "tests/support/temporary_directory.h"
 
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -172,6 +174,39 @@ TEST_F(RenderOptionsTest, QualityIsAPresetAndAnExplicitOptionWins) {
     EXPECT_EQ(s.gridResolution, kQualities.back().settings.gridResolution);
   }
   EXPECT_THAT(refusalOf({"--quality", "best"}), HasSubstr("preview, balanced, accurate"));
+}
+
+TEST_F(RenderOptionsTest, QualityAutoTriesSettingsInWhichExplicitOptionsHold) {
+  EXPECT_TRUE(parse({}).candidates.empty());
+  EXPECT_TRUE(parse({"--quality", "preview"}).candidates.empty());
+  const RenderOptions options = parse({"--max-cut", "77", "--quality", "auto", "--cell-memory", "1"});
+  ASSERT_GE(options.candidates.size(), 3u);
+  EXPECT_EQ(options.candidates[0].settings, options.settings.sampler);
+  for (const Quality& candidate : options.candidates) {
+    EXPECT_EQ(candidate.settings.maxCut, 77);
+    EXPECT_EQ(candidate.settings.cellMemory, std::size_t{1} << 20);
+  }
+  EXPECT_NE(options.candidates.back().settings.threshold, options.settings.sampler.threshold);
+  EXPECT_THAT(refusalOf({"--quality", "best"}), HasSubstr("auto"));
+}
+
+TEST_F(RenderOptionsTest, OnlyRenderTriesQualities) {
+  CLI::App verb;
+  RenderOptions options;
+  addPictureOptions(verb, options);
+  std::vector<std::string> args{"auto", "--quality"};
+  EXPECT_THROW(verb.parse(args), InputError);
+}
+
+TEST_F(RenderOptionsTest, PinningOptionsMakeTheSameSettings) {
+  for (const float threshold : {0.002f, 0.1f, 1.0f / 3, 1e-30f, 0.0f}) {
+    const SamplerSettings s{
+        .threshold = threshold, .maxCut = 99, .gridResolution = 7, .inCluster = InCluster::kIntensity};
+    std::istringstream words(pinningOptions(s));
+    const std::vector<std::string> args(std::istream_iterator<std::string>(words), {});
+    EXPECT_EQ(parse(args).settings.sampler, s) << pinningOptions(s);
+  }
+  EXPECT_EQ(pinningOptions({}), "--threshold 0.002 --max-cut 1024 --grid-resolution 16 --in-cluster descent");
 }
 
 TEST_F(RenderOptionsTest, EnvironmentSettingsNeedAnEnvironment) {
