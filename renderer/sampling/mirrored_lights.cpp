@@ -9,6 +9,11 @@ namespace {
 /// both times π: others gain nothing in the recipes and cost 5 % of a pass.
 constexpr float kLeastPeak = 1;
 
+/// Sharper lobes are not followed. BSDF samples find what they mirror of lights with area, and the highlight of a light
+/// without is so small beside a pixel that it is a rare bright sample however the light is chosen. Chosen often, it is in
+/// a picture sooner: lamps in the water of `kinds`, α = 0.0064, gave one of three pictures of 32 spp 400 times the relMSE.
+constexpr float kSharpestAlpha = 0.012f;
+
 /// Most of the samples that follow the mirror. With 2/3 street and hall have 15 % less relMSE, but the variance of what a
 /// surface scatters evenly, which is most of the light of a glazed one, may be three times that of the cut and not two.
 constexpr double kMostShare = 0.5;
@@ -44,6 +49,7 @@ double MirroredImportance::operator()(const LightTree& tree, bool distant, NodeI
 
 MirroredLights::MirroredLights(const LightTrees& trees, const ShadingPoint& point) {
   const auto& [wo, alpha, reflected] = point.lobe;
+  if (!(alpha >= kSharpestAlpha)) return;
   const float peak = reflected / (4 * alpha * alpha * std::max(glm::dot(point.n, wo), alpha));
   if (!(peak > kLeastPeak)) return;
   descent_.emplace(trees, MirroredImportance(point));
