@@ -69,7 +69,7 @@ void drawTable(Widgets& widgets, const std::vector<ClusterRow>& rows, std::optio
                         row.contribution.unoccluded, row.contribution.visible);
     }
     ImGui::TableNextColumn();
-    ImGui::Text("%.2e", row.cluster.estimate);
+    ImGui::Text("%.1e", row.cluster.estimate);
     percent(row.cluster.probability);
     percent(row.share);
     percent(row.mismatch);
