@@ -3,9 +3,9 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/report.h"
-#include "app/stopwatch.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
+#include "renderer/base/stopwatch.h"
 #include "renderer/measure/quality_choice.h"
 #include "renderer/trace/noise_watch.h"
 

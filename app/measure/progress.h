@@ -2,7 +2,7 @@
 /// What a person sees while `measure` works.
 #pragma once
 
-#include "app/stopwatch.h"
+#include "renderer/base/stopwatch.h"
 
 #include <ostream>
 #include <string>

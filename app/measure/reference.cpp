@@ -2,10 +2,10 @@
 
 #include "app/measure/scene_hash.h"
 #include "app/output.h"
-#include "app/stopwatch.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 #include "renderer/base/rng.h"
+#include "renderer/base/stopwatch.h"
 #include "renderer/trace/renderer.h"
 
 #include <algorithm>

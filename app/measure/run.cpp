@@ -1,6 +1,6 @@
 #include "app/measure/run.h"
 
-#include "app/stopwatch.h"
+#include "renderer/base/stopwatch.h"
 #include "renderer/trace/renderer.h"
 
 #include <algorithm>

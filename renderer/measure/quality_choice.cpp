@@ -1,24 +1,15 @@
 #include "renderer/measure/quality_choice.h"
 
+#include "renderer/base/stopwatch.h"
 #include "renderer/trace/prepared_scene.h"
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 namespace cellcut {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 /// Pixels of a trial's film: a sixteenth of the picture's, but enough for the variance of a group of them to mean
 /// something, and no more than it takes for that to be known well (64×36 and 320×180).
