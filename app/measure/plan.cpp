@@ -88,10 +88,6 @@ std::vector<Configuration> configurationsOf(const MeasureOptions& options, const
 
 }  // namespace
 
-bool hasCuts(Strategy strategy) {
-  return strategy == Strategy::kCellCut || strategy == Strategy::kPointCut;
-}
-
 MeasurePlan planOf(const MeasureOptions& options) {
   MeasurePlan plan;
   plan.cases = casesOf(options);

@@ -69,8 +69,6 @@ struct MeasurePlan {
   std::vector<Configuration> configurations;  ///< of the first case, of the second …
 };
 
-bool hasCuts(Strategy strategy);
-
 /// Every case with every strategy; sweeps vary one parameter at a time. A point of a sweep that is what the command line
 /// says anyway is not measured twice.
 MeasurePlan planOf(const MeasureOptions& options);

@@ -31,6 +31,11 @@ constexpr std::string_view nameOf(Strategy strategy) {
   return kStrategies[static_cast<std::size_t>(strategy)].name;
 }
 
+/// Whether SamplerSettings matter to it.
+constexpr bool hasCuts(Strategy strategy) {
+  return strategy == Strategy::kCellCut || strategy == Strategy::kPointCut;
+}
+
 constexpr std::optional<Strategy> strategyFromName(std::string_view name) {
   for (const StrategyName& s : kStrategies) {
     if (s.name == name) return s.strategy;

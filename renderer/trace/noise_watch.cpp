@@ -25,14 +25,16 @@ bool isLook(std::uint64_t passes) {
 
 }  // namespace
 
-void NoiseWatch::look(const Film& film) {
-  if (!isLook(film.passes()) || (!earlier_.empty() && earlier_.back().passes == film.passes())) return;
+bool NoiseWatch::look(const Film& film) {
+  if (!isLook(film.passes()) || (!earlier_.empty() && earlier_.back().passes == film.passes())) return false;
   FilmState now{film.passes(), film.mean(), film.standardError()};
-  if (earlier_.size() == kLooks.size()) {
+  const bool known = earlier_.size() == kLooks.size();
+  if (known) {
     noise_ = estimateNoise(earlier_.front(), now);
     earlier_.pop_front();
   }
   earlier_.push_back(std::move(now));
+  return known;
 }
 
 }  // namespace cellcut

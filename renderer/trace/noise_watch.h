@@ -14,9 +14,9 @@ namespace cellcut {
 /// Keeps 72 bytes per pixel from pass 8 on.
 class NoiseWatch {
  public:
-  /// To be called after every pass, once or more often. One that begins in the middle knows nothing until it has met half
-  /// of the passes.
-  void look(const Film& film);
+  /// To be called after every pass, once or more often; whether noise() is new. One that begins in the middle knows nothing
+  /// until it has met half of the passes.
+  bool look(const Film& film);
 
   /// Of the last look; infinite before the first.
   const NoiseEstimate& noise() const { return noise_; }

@@ -224,7 +224,7 @@ bool SessionDriver::limitReached() {
   const std::uint64_t passes = picture_.film().passes();
   if (input.passLimit && passes >= *input.passLimit) return true;
   if (input.timeLimit && passes > 0 && seconds_ >= *input.timeLimit) return true;
-  return input.noiseLimit && !(relativeError() >= *input.noiseLimit);
+  return input.noiseLimit && !(lookAtNoise().bound >= *input.noiseLimit);
 }
 
 void SessionDriver::renderPreview() {
@@ -315,10 +315,10 @@ void SessionDriver::awaitWorkers(Clock::time_point graceEnd, Inspection inspecti
 
 // The driver: snapshots -------------------------------------------------------------------------------------------
 
-double SessionDriver::relativeError() {
+const NoiseEstimate& SessionDriver::lookAtNoise() {
   const SessionInput& input = picture_.input();
-  if (input.noise || input.noiseLimit) noise_.look(picture_.film());
-  return noise_.noise().bound;
+  if ((input.noise || input.noiseLimit) && noise_.look(picture_.film())) noiseSeconds_ = seconds_;
+  return noise_.noise();
 }
 
 std::shared_ptr<Snapshot> SessionDriver::describe(const PassRenderer& passes, const Film& film, double seconds) const {
@@ -341,7 +341,8 @@ void SessionDriver::publishFilm() {
   unpublished_ = false;
   const Film& film = picture_.film();
   auto snapshot = describe(picture_.passes(), film, seconds_);
-  snapshot->relativeError = relativeError();
+  snapshot->noise = lookAtNoise();
+  snapshot->noiseSeconds = noiseSeconds_;
   snapshot->sampler = statistics_;
   if (picture_.input().layers) snapshot->layers = std::make_shared<const LayeredImage>(film.layers());
   publish(std::move(snapshot));

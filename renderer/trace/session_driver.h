@@ -65,7 +65,7 @@ class SessionDriver {
   enum class Inspection { kServed, kWaits };
   void awaitWorkers(Clock::time_point graceEnd, Inspection inspection);
 
-  double relativeError();
+  const NoiseEstimate& lookAtNoise();
   std::shared_ptr<Snapshot> describe(const PassRenderer& passes, const Film& film, double seconds) const;
   void publishFilm();
   void publish(std::shared_ptr<const Snapshot> snapshot);
@@ -107,6 +107,7 @@ class SessionDriver {
   bool unpublished_ = false;        ///< the film holds a pass that no snapshot shows
   SamplerStatistics statistics_;    ///< after the passes in the film
   NoiseWatch noise_;                ///< of the film
+  double noiseSeconds_ = 0;         ///< at its last look
 
   std::thread thread_;  ///< last: it uses everything above
 };

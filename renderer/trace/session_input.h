@@ -26,7 +26,7 @@ struct SessionInput {
   bool paused = false;               ///< after the preview
   bool preview = true;               ///< coarse pictures first; they touch cells too
   bool layers = false;               ///< snapshots have Snapshot::layers
-  bool noise = false;                ///< and Snapshot::relativeError without a limit on it; takes memory: NoiseWatch
+  bool noise = false;                ///< and Snapshot::noise without a limit on it; takes memory: NoiseWatch
 };
 
 /// What a function that inspects a session may look at: const members of all of it may be called while tiles are being

@@ -4,6 +4,7 @@
 
 #include "renderer/base/image_io.h"
 #include "renderer/trace/film.h"
+#include "renderer/trace/noise.h"
 #include "renderer/trace/render_settings.h"
 
 #include <cstdint>
@@ -26,8 +27,9 @@ struct Snapshot {
   RayCounts rays;
   std::uint64_t droppedSamples = 0;  ///< a shading point coincides with a point light
   BadSamples bad;
-  /// NoiseEstimate::bound of the last look of a NoiseWatch, which the input asks for; infinite before the first.
-  double relativeError = std::numeric_limits<double>::infinity();
+  /// The last look of a NoiseWatch, which the input asks for; infinite before the first.
+  NoiseEstimate noise{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double noiseSeconds = 0;  ///< of rendering up to that look
   SamplerStatistics sampler;
   std::shared_ptr<const LayeredImage> layers;  ///< Film::layers() where the input asks for them; null for a preview
 };

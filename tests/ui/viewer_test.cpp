@@ -367,7 +367,7 @@ TEST_F(ViewerTest, LimitsPauseAndStep) {
   EXPECT_EQ(viewer_->session().snapshot()->passes, 4u);
   play("key P\nwait idle\nexpect ETA done\nset \"Stop at spp\" 0\nset \"Stop at REL\" 0.5\nwait idle\n");
   EXPECT_GE(viewer_->session().snapshot()->passes, kMinNoisePasses);
-  EXPECT_LT(viewer_->session().snapshot()->relativeError, 0.5);
+  EXPECT_LT(viewer_->session().snapshot()->noise.bound, 0.5);
   play("set \"Stop at REL\" 0\nset \"Stop at s\" 1\nwait idle\nexpect ETA done\n");
   EXPECT_GE(viewer_->session().snapshot()->seconds, 1);
 }
@@ -377,6 +377,30 @@ TEST_F(ViewerTest, TheRelativeErrorIsShownWithoutALimitOnIt) {
   EXPECT_EQ(viewer_->widgets().find("Relative error"), nullptr);
   play("set \"Stop at spp\" 16\nwait idle\n");
   EXPECT_NE(viewer_->widgets().find("Relative error"), nullptr);
+}
+
+TEST_F(ViewerTest, TrialsTellWhatOtherSettingsCostAndTheBestIsUsed) {
+  play("wait idle\nset \"Max cut\" 64\nclick Trade\nclick \"Find best\"\nwait idle\n");
+  ASSERT_TRUE(viewer_->trade().has_value());
+  const std::vector<QualityTrial>& trials = viewer_->trade()->trials;
+  EXPECT_EQ(trials[0].quality.settings.maxCut, 64);
+  EXPECT_GE(trials.size(), 10u);
+  for (const QualityTrial& trial : trials) EXPECT_GT(trial.passes, 0u);
+  EXPECT_EQ(viewer_->state().settings.sampler.maxCut, trials[viewer_->trade()->best].quality.settings.maxCut);
+  // A row is a setting that can be used.
+  play("click \"Trial accurate\"\nwait idle\nexpect Quality accurate\n");
+  EXPECT_EQ(viewer_->state().settings.sampler.maxCut, 2048);
+  // What was told of these lights says nothing of other strategies and of other depths.
+  play("set \"Max depth\" 2\nwait idle\n");
+  EXPECT_EQ(viewer_->widgets().find("Trial accurate"), nullptr);
+  play("set Strategy uniform\nkey I\nwait idle\n");
+  EXPECT_EQ(viewer_->trade()->input.settings.strategy, Strategy::kCellCut);
+}
+
+TEST_F(ViewerTest, TrialsThatAreStoppedChangeNothing) {
+  play("wait idle\nset \"Max cut\" 64\nkey I\nkey I\nwait idle\n");
+  EXPECT_FALSE(viewer_->trade().has_value());
+  EXPECT_EQ(viewer_->state().settings.sampler.maxCut, 64);
 }
 
 TEST_F(ViewerTest, AWindowWithoutAreaIsNoReasonToStop) {

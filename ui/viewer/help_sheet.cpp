@@ -8,7 +8,7 @@
 namespace cellcut {
 
 void drawHelp(bool& open) {
-  static constexpr std::array<std::array<const char*, 2>, 31> kKeys{
+  static constexpr std::array<std::array<const char*, 2>, 32> kKeys{
       {{"F1", "this sheet"},
        {"F2", "hide or show the panels"},
        {"F5", "load the scene's file again"},
@@ -37,6 +37,7 @@ void drawHelp(bool& open) {
        {"Ctrl+O", "open the scene before this one again"},
        {"J", "make a reference, or use it as far as it is"},
        {"Y, Ctrl+E", "keep the convergence curve, save all as CSV"},
+       {"I", "try settings and use the best, or stop that"},
        {"U", "duel of two strategies in equal time"},
        {"Escape", "end the inspection"},
        {"drop a file", "open a scene, or an EXR as reference"}}};

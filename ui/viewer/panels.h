@@ -7,6 +7,7 @@
 #include "ui/viewer/overlay_source.h"
 #include "ui/viewer/recent_files.h"
 #include "ui/viewer/reference.h"
+#include "ui/viewer/trade.h"
 #include "ui/viewer/viewer_state.h"
 #include "ui/viewer/widgets.h"
 
@@ -34,6 +35,8 @@ struct ViewerFacts {
   const Snapshot* second;         ///< of the opponent in a duel; null without
   const std::vector<std::filesystem::path>& recent;
   MeasureFacts measure;
+  bool trying;          ///< settings are being tried
+  const Trade* trade;   ///< what that said of what is rendered; null: nothing yet
   std::string problem;  ///< of the last file or edit, for a person; empty: none
 };
 
@@ -60,12 +63,14 @@ enum class ViewerCommand {
   kReference,   ///< make one, or take it as far as it is
   kKeepRun,
   kClearRuns,
-  kSaveCsv
+  kSaveCsv,
+  kFindBest  ///< try settings, or stop that
 };
 
 ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 ViewerCommand drawViewPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 ViewerCommand drawReferencePanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
+ViewerCommand drawTradePanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 void drawDuelPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts);
@@ -76,6 +81,11 @@ void drawHelp(bool& open);
 /// \param area  of the picture, framebuffer pixels
 void drawLegend(const OverlayPicture& overlay, const OverlayChoice& choice, const PixelRect& area, float uiScale);
 
+/// Below the slider of that label: what other values of it cost, as far as they were tried.
+void drawCosts(const Trade* trade, const char* setting);
+/// Of what a quality sets.
+bool haveSameCuts(const SamplerSettings& a, const SamplerSettings& b);
+void useCuts(SamplerSettings& settings, const SamplerSettings& cuts);
 /// The settings of a quality; index into kQualities, or nothing if the settings are no preset's.
 std::optional<std::size_t> qualityOf(const SamplerSettings& settings);
 

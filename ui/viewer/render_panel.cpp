@@ -5,11 +5,7 @@
 namespace cellcut {
 namespace {
 
-bool hasCuts(Strategy strategy) {
-  return strategy == Strategy::kCellCut || strategy == Strategy::kPointCut;
-}
-
-void drawSamplerSettings(Widgets& widgets, ViewerState& state) {
+void drawSamplerSettings(Widgets& widgets, const Trade* trade, ViewerState& state) {
   SamplerSettings& s = state.settings.sampler;
   std::array<std::string_view, kQualities.size() + 1> qualities;
   for (std::size_t i = 0; i < kQualities.size(); ++i) qualities[i] = kQualities[i].name;
@@ -18,23 +14,24 @@ void drawSamplerSettings(Widgets& widgets, ViewerState& state) {
   if (widgets.choice("Quality", quality, qualities,
                      "Presets of the four settings below: what they trade is time per pass against noise per sample") &&
       quality < static_cast<int>(kQualities.size())) {
-    const auto [memory, visits] = std::pair(s.cellMemory, s.countVisits);
-    s = kQualities[static_cast<std::size_t>(quality)].settings;
-    s.cellMemory = memory;
-    s.countVisits = visits;
+    useCuts(s, kQualities[static_cast<std::size_t>(quality)].settings);
   }
   widgets.slider("Max cut", s.maxCut, 2, kMaxCutSize,
                  "Most clusters of a cut. More: less noise, cells that take longer to make", true);
+  drawCosts(trade, "Max cut");
   widgets.slider("Threshold", s.threshold, 0.0f, 0.1f,
                  "Clusters above this share of a cut's estimate are split. Lower: longer cuts, less noise", true);
+  drawCosts(trade, "Threshold");
   if (state.settings.strategy == Strategy::kCellCut) {
     widgets.slider("Grid", s.gridResolution, 1, 256,
                    "Cells along the longest axis of what is seen. More: better estimates, more cells to make", true);
+    drawCosts(trade, "Grid");
   }
   static constexpr std::array<std::string_view, 2> kInCluster{"intensity", "descent"};
   chooseEnum(
       widgets, "In cluster", s.inCluster, kInCluster,
       "How a light is chosen inside a cluster: by intensity (faster), or down the tree by importance (less noise)");
+  drawCosts(trade, "In cluster");
 }
 
 template <class T>
@@ -54,8 +51,8 @@ std::string remaining(const ViewerState& state, const Snapshot& s) {
     least = perPass * (static_cast<double>(*state.passLimit) - static_cast<double>(s.passes));
   }
   if (state.timeLimit) least = std::min(least, *state.timeLimit - s.seconds);
-  if (state.noiseLimit && std::isfinite(s.relativeError)) {
-    const double ratio = s.relativeError / *state.noiseLimit;
+  if (state.noiseLimit && std::isfinite(s.noise.bound)) {
+    const double ratio = s.noise.bound / *state.noiseLimit;
     least = std::min(least, s.seconds * (ratio * ratio - 1));
   }
   if (!std::isfinite(least)) return "unknown yet";
@@ -64,15 +61,23 @@ std::string remaining(const ViewerState& state, const Snapshot& s) {
 
 }  // namespace
 
+bool haveSameCuts(const SamplerSettings& a, const SamplerSettings& b) {
+  return a.maxCut == b.maxCut && a.threshold == b.threshold && a.gridResolution == b.gridResolution &&
+         a.inCluster == b.inCluster;
+}
+
+void useCuts(SamplerSettings& settings, const SamplerSettings& cuts) {
+  settings.maxCut = cuts.maxCut;
+  settings.threshold = cuts.threshold;
+  settings.gridResolution = cuts.gridResolution;
+  settings.inCluster = cuts.inCluster;
+}
+
 std::optional<std::size_t> qualityOf(const SamplerSettings& s) {
-  for (std::size_t i = 0; i < kQualities.size(); ++i) {
-    const SamplerSettings& q = kQualities[i].settings;
-    if (q.maxCut == s.maxCut && q.threshold == s.threshold && q.gridResolution == s.gridResolution &&
-        q.inCluster == s.inCluster) {
-      return i;
-    }
-  }
-  return std::nullopt;
+  const auto found =
+      std::find_if(kQualities.begin(), kQualities.end(), [&](const Quality& q) { return haveSameCuts(q.settings, s); });
+  if (found == kQualities.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kQualities.begin());
 }
 
 ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state) {
@@ -82,7 +87,7 @@ ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, Viewer
   static constexpr auto kNames = namesOf(kStrategies);
   const std::string_view about = kStrategies[static_cast<std::size_t>(s.strategy)].description;
   chooseEnum(widgets, "Strategy", s.strategy, kNames, about.data());
-  if (hasCuts(s.strategy)) drawSamplerSettings(widgets, state);
+  if (hasCuts(s.strategy)) drawSamplerSettings(widgets, facts.trade, state);
   widgets.slider("Max depth", s.maxDepth, 0, 32, "Times a path may scatter: 0 emitters only, 1 direct light only");
   if (s.shownLights) {
     const std::vector<bool>& shown = s.shownLights->shown();

@@ -9,8 +9,8 @@ void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts) {
   widgets.text("Samples", formatted("%llu spp in %.1f s", static_cast<unsigned long long>(s.passes), s.seconds));
   const double rays = static_cast<double>(s.rays.camera + s.rays.bounce + s.rays.shadow);
   if (s.seconds > 0) widgets.text("Speed", formatted("%.2f Mray/s", rays / s.seconds * 1e-6));
-  if (std::isfinite(s.relativeError)) {
-    widgets.text("Relative error", formatted("%.4f", s.relativeError),
+  if (std::isfinite(s.noise.bound)) {
+    widgets.text("Relative error", formatted("%.4f", s.noise.bound),
                  "The root of relMSE is below it with 97 %, as far as the samples tell: looked at after 16, 20, 25, "
                  "32, ... spp");
   }

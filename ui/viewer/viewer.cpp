@@ -62,6 +62,7 @@ Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader l
       recent_(options_.recentFiles),
       reference_{options_.reference, {}, 0},
       maker_([&window] { window.wake(); }),
+      trials_([&window] { window.wake(); }),
       session_([&window] { window.wake(); }) {
   if (options_.record) recorder_ = std::make_unique<ScriptRecorder>(*options_.record);
   if (!options_.file.empty()) recent_.add(options_.file);
@@ -85,7 +86,7 @@ bool Viewer::settled() const {
 }
 
 bool Viewer::atRest() const {
-  if (maker_.busy() || convergence_.busy() || secondConvergence_.busy()) return false;
+  if (maker_.busy() || trials_.busy() || convergence_.busy() || secondConvergence_.busy()) return false;
   if (duel_ && !state_.paused) {
     if (!duel_->finished()) return false;
   } else if (!session_.atRest()) {
@@ -148,6 +149,7 @@ void Viewer::takeNews() {
   if (panelsHeld_) return;
   takeScene();
   takeReference();
+  takeTrade();
   if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
@@ -251,13 +253,17 @@ void Viewer::drawPanels() {
                             .run = convergence_.run(),
                             .secondRun = duel_ ? &secondConvergence_.run() : nullptr,
                             .kept = keptRuns_};
-  const ViewerFacts facts{*scene_, *snapshot_, overlay(), stored_, second_.get(), recent_.list(), errors, problem_};
+  const ViewerFacts facts{*scene_, *snapshot_,     overlay(),
+                          stored_, second_.get(),  recent_.list(),
+                          errors,  trials_.busy(), trade_ && trade_->fits(applied_) ? &*trade_ : nullptr,
+                          problem_};
   run(drawProblem(shown_, facts));
   if (loading_.valid()) ImGui::TextWrapped("loading %s …", loadingFile_.filename().string().c_str());
   run(drawInspectorPanel(shown_, facts, state_));
   run(drawRenderPanel(shown_, facts, state_));
   run(drawViewPanel(shown_, facts, state_));
   drawOverlayPanel(shown_, facts, state_);
+  run(drawTradePanel(shown_, facts, state_));
   run(drawReferencePanel(shown_, facts, state_));
   drawDuelPanel(shown_, facts, state_);
   drawStatisticsPanel(shown_, facts);
@@ -316,6 +322,8 @@ void Viewer::run(ViewerCommand command) {
       return keptRuns_.clear();
     case ViewerCommand::kSaveCsv:
       return guarded([this] { saveCsv(); });
+    case ViewerCommand::kFindBest:
+      return toggleTrials();
     case ViewerCommand::kExportCut:
       if (overlay_ && overlay_->inspection) window_.setClipboard(toJson(*overlay_->inspection).dump(2));
       return;

@@ -15,6 +15,7 @@
 #include "ui/viewer/recent_files.h"
 #include "ui/viewer/reference.h"
 #include "ui/viewer/script_recorder.h"
+#include "ui/viewer/trade.h"
 #include "ui/viewer/viewer_state.h"
 #include "ui/viewer/widgets.h"
 #include "ui/window.h"
@@ -81,6 +82,7 @@ class Viewer {
   const Reference& reference() const { return reference_; }
   const Convergence& convergence() const { return convergence_; }
   const std::vector<ConvergenceRun>& keptRuns() const { return keptRuns_; }
+  const std::optional<Trade>& trade() const { return trade_; }
   const RecentFiles& recentFiles() const { return recent_; }
   /// Asks for the overlay and waits for it: for screenshots.
   void refreshOverlay();
@@ -107,6 +109,8 @@ class Viewer {
   bool referenceFits() const { return reference_.fits(applied_); }
   void useReference(Reference reference);
   void toggleReference();
+  void takeTrade();
+  void toggleTrials();
   void saveCsv();
   void keepView();
   void recallView();
@@ -185,6 +189,8 @@ class Viewer {
   std::shared_ptr<const Snapshot> second_;       ///< of the opponent; null without a duel
   std::shared_ptr<const Snapshot> secondShown_;  ///< the one that lies in the picture
   ReferenceMaker maker_;
+  TradeTrials trials_;
+  std::optional<Trade> trade_;
   std::unique_ptr<Duel> duel_;
   Strategy opponent_ = Strategy::kPower;   ///< as applied
   std::vector<std::future<void>> ending_;  ///< duels whose session may be building a scene still

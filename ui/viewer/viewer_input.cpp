@@ -83,6 +83,7 @@ ViewerCommand Viewer::readKeys(double seconds) {
   }
   if (gui_.keyPressed(Key::kU)) state_.duel = !state_.duel;
   if (gui_.keyPressed(Key::kJ)) return ViewerCommand::kReference;
+  if (gui_.keyPressed(Key::kI)) return ViewerCommand::kFindBest;
   if (gui_.keyPressed(Key::kY)) return ViewerCommand::kKeepRun;
   if (gui_.keyPressed(Key::kL)) return ViewerCommand::kSolo;
   if (gui_.keyPressed(Key::kM)) return ViewerCommand::kMute;

@@ -39,6 +39,23 @@ void Viewer::toggleReference() {
   if (std::optional<Reference> made = maker_.take(true)) useReference(std::move(*made));
 }
 
+void Viewer::toggleTrials() {
+  if (trials_.busy())
+    trials_.stop();
+  else if (hasCuts(applied_.settings.strategy))
+    trials_.start(applied_);
+}
+
+void Viewer::takeTrade() {
+  std::optional<Trade> taken = trials_.take();
+  if (std::string problem = trials_.takeProblem(); !problem.empty()) problem_ = std::move(problem);
+  if (!taken || !taken->fits(applied_)) return;
+  trade_ = std::move(taken);
+  // What a person has set meanwhile stays.
+  SamplerSettings& now = state_.settings.sampler;
+  if (haveSameCuts(now, trade_->input.settings.sampler)) useCuts(now, trade_->trials[trade_->best].quality.settings);
+}
+
 void Viewer::measure() {
   guarded([this] {
     convergence_.update();

@@ -404,11 +404,11 @@ TEST_F(Session, StopsAtLimitsOfTimeAndNoise) {
   session.waitIdle();
   EXPECT_EQ(session.snapshot()->passes, kMinNoisePasses);
 
-  input.noiseLimit = 0.9 * session.snapshot()->relativeError;
+  input.noiseLimit = 0.9 * session.snapshot()->noise.bound;
   session.edit(input);
   session.waitIdle();
   EXPECT_GT(session.snapshot()->passes, kMinNoisePasses);
-  EXPECT_LT(session.snapshot()->relativeError, *input.noiseLimit);
+  EXPECT_LT(session.snapshot()->noise.bound, *input.noiseLimit);
   EXPECT_GE(renderHeadless(input, session.snapshot()->passes - 1).relativeError, *input.noiseLimit);
 }
 
@@ -417,19 +417,19 @@ TEST_F(Session, NoiseIsThatOfTheHeadlessRendererWhereItIsAskedFor) {
   RenderSession session;
   session.edit(input);
   session.waitIdle();
-  EXPECT_EQ(session.snapshot()->relativeError, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(session.snapshot()->noise.bound, std::numeric_limits<double>::infinity());
   input.noise = true;
   input.settings.seed = 1;
   session.edit(input);
   session.waitIdle();
-  EXPECT_LT(session.snapshot()->relativeError, 10);
-  EXPECT_EQ(session.snapshot()->relativeError, renderHeadless(input, 21).relativeError);
+  EXPECT_LT(session.snapshot()->noise.bound, 10);
+  EXPECT_EQ(session.snapshot()->noise.bound, renderHeadless(input, 21).relativeError);
   // A picture that starts again is looked at anew.
   input.settings.seed = 2;
   input.passLimit = 3;
   session.edit(input);
   session.waitIdle();
-  EXPECT_EQ(session.snapshot()->relativeError, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(session.snapshot()->noise.bound, std::numeric_limits<double>::infinity());
 }
 
 TEST_F(Session, WhatCannotBeRenderedIsRefusedAndTheOldPictureGoesOn) {
