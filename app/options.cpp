@@ -136,12 +136,15 @@ void addExplicit(CLI::App& verb, RenderOptions& o, const std::string& name, cons
 
 void addCuts(CLI::App& verb, RenderOptions& o, bool autoQuality) {
   const SamplerSettings& defaults = o.settings.sampler;
+  std::ostringstream threshold;
+  threshold << defaults.threshold;
   // Options are applied in the order in which they are declared here, whatever their order on the command line: an
   // explicit one wins over the preset.
   addText(
       verb, "--quality", "NAME", [&o, autoQuality](const std::string& t) { setQuality(o, t, autoQuality); },
       "Preset of the next four options; see below (default balanced)");
-  addExplicit(verb, o, "--threshold", "X", "Split clusters above this share of a cut's estimate (default 0.002)",
+  addExplicit(verb, o, "--threshold", "X",
+              "Split clusters above this share of a cut's estimate (default " + threshold.str() + ")",
               [](SamplerSettings& s, const std::string& t) { s.threshold = parseThreshold("--threshold", t); });
   addExplicit(verb, o, "--max-cut", "K", "Most clusters of a cut (default " + std::to_string(defaults.maxCut) + ")",
               [](SamplerSettings& s, const std::string& t) { s.maxCut = parseMaxCut("--max-cut", t); });
@@ -234,8 +237,7 @@ std::string pinningOptions(const SamplerSettings& s) {
   std::array<char, 32> threshold{};  // the shortest that is read back as the same number
   char* const end = std::to_chars(threshold.data(), threshold.data() + threshold.size(), s.threshold).ptr;
   return "--threshold " + std::string(threshold.data(), end) + " --max-cut " + std::to_string(s.maxCut) +
-         " --grid-resolution " + std::to_string(s.gridResolution) + " --in-cluster " +
-         (s.inCluster == InCluster::kDescent ? "descent" : "intensity");
+         " --grid-resolution " + std::to_string(s.gridResolution) + " --in-cluster " + std::string(nameOf(s.inCluster));
 }
 
 float parseThreshold(const std::string& option, const std::string& text) {

@@ -54,7 +54,7 @@ Json samplerJson(const SamplerSettings& s) {
   return {{"threshold", s.threshold},
           {"max_cut", s.maxCut},
           {"grid_resolution", s.gridResolution},
-          {"in_cluster", s.inCluster == InCluster::kDescent ? "descent" : "intensity"},
+          {"in_cluster", nameOf(s.inCluster)},
           {"cell_memory", s.cellMemory}};
 }
 

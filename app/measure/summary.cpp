@@ -138,9 +138,7 @@ std::vector<Column> makeColumns() {
       parameter("grid_resolution", "cells along the longest axis",
                 [](const SamplerSettings& s) { return std::to_string(s.gridResolution); }),
       parameter("in_cluster", "choice inside a cluster",
-                [](const SamplerSettings& s) {
-                  return std::string(s.inCluster == InCluster::kDescent ? "descent" : "intensity");
-                }),
+                [](const SamplerSettings& s) { return std::string(nameOf(s.inCluster)); }),
       {"base", "1: the parameters of the command line, 0: a point of a sweep",
        [](const auto& results, const auto& row) {
          return std::string(configurationOf(results, row).isBase ? "1" : "0");

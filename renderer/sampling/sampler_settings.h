@@ -16,30 +16,46 @@ enum class InCluster : std::uint8_t {
   kDescent,    ///< small clusters down the tree by importance at the point (Conty Estevez and Kulla 2018)
 };
 
+/// On the command line and in reports.
+constexpr std::string_view nameOf(InCluster choice) {
+  return choice == InCluster::kDescent ? "descent" : "intensity";
+}
+
+/// What a quality sets: SamplerSettings says what it is.
+struct FittedCuts {
+  float threshold;
+  int maxCut;
+  int gridResolution;
+  InCluster inCluster;
+};
+#include "renderer/sampling/fitted_qualities.inc"
+
 /// Of the strategies with cuts; the others ignore them.
 struct SamplerSettings {
-  float threshold = 0.002f;  ///< a cluster above this share of the cut's estimate is split; [0, 1]
-  int maxCut = 1024;         ///< most clusters of a cut; 2 … kMaxCutSize
-  int gridResolution = 16;   ///< cells along the longest axis of what is seen; 1 … 1024
-  InCluster inCluster = InCluster::kDescent;
+  float threshold = kBalancedCuts.threshold;  ///< a cluster above this share of the cut's estimate is split; [0, 1]
+  int maxCut = kBalancedCuts.maxCut;          ///< most clusters of a cut; 2 … kMaxCutSize
+  int gridResolution = kBalancedCuts.gridResolution;  ///< cells along the longest axis of what is seen; 1 … 1024
+  InCluster inCluster = kBalancedCuts.inCluster;
   std::size_t cellMemory = std::size_t{256} << 20;  ///< bytes of kept cuts; beyond, cuts are found again at every use
   bool countVisits = false;                         ///< count how often each kept cut is asked for a light
 
   bool operator==(const SamplerSettings&) const = default;
 };
 
-/// Settings by what they trade. Their values come from measurement: README, "Measured".
+constexpr SamplerSettings settingsOf(const FittedCuts& cuts) {
+  return {cuts.threshold, cuts.maxCut, cuts.gridResolution, cuts.inCluster};
+}
+
+/// Settings by what they trade; `./dev fit` measures their values.
 struct Quality {
   std::string_view name;         ///< on the command line
   std::string_view description;  ///< one line
   SamplerSettings settings;
 };
 inline constexpr std::array kQualities{
-    Quality{"preview",
-            "the cheapest passes and cells, for a first look",
-            {.threshold = 0.005f, .maxCut = 256, .inCluster = InCluster::kIntensity}},
-    Quality{"balanced", "the least noise for the time, over the recipes", {}},
-    Quality{"accurate", "the least noise per sample, for long renderings", {.threshold = 0.0005f, .maxCut = 2048}},
+    Quality{"preview", "the cheapest passes and cells, for a first look", settingsOf(kPreviewCuts)},
+    Quality{"balanced", "the least noise for the time, over the recipes", settingsOf(kBalancedCuts)},
+    Quality{"accurate", "the least noise per sample, for long renderings", settingsOf(kAccurateCuts)},
 };
 
 /// Largest maxCut: the weights of a cut lie on the stack.

@@ -12,6 +12,8 @@ constexpr double kTicks = 5;
 constexpr std::size_t kMaxTicks = 9;
 /// Share of the maximum that a logarithm starts at where its minimum was pinned to nothing or less.
 constexpr double kPinnedDecades = 1e-3;
+/// The same where it was not pinned: what rounding leaves of a variance, 10⁻²⁸, would take all colours.
+constexpr double kMostDecades = 1e-6;
 
 std::optional<ValueRange> usable(const std::optional<ValueRange>& pinned, ScaleKind kind) {
   if (!pinned || !std::isfinite(pinned->minimum) || !std::isfinite(pinned->maximum)) return std::nullopt;
@@ -66,6 +68,7 @@ std::optional<ValueRange> autoRange(const Image<float>& values, ScaleKind kind) 
     const auto v = static_cast<double>(value);
     range = range ? ValueRange{std::min(range->minimum, v), std::max(range->maximum, v)} : ValueRange{v, v};
   }
+  if (range && kind == ScaleKind::kLog) range->minimum = std::max(range->minimum, kMostDecades * range->maximum);
   return range;
 }
 

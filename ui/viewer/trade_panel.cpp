@@ -23,7 +23,7 @@ std::optional<std::pair<std::string, std::string>> varied(const Trade& trade, co
   if (s.threshold != first.threshold) return std::pair("Threshold", shortNumber(static_cast<double>(s.threshold), 2));
   if (s.gridResolution != first.gridResolution) return std::pair("Grid", std::to_string(s.gridResolution));
   if (s.inCluster == first.inCluster) return std::nullopt;
-  return std::pair("In cluster", s.inCluster == InCluster::kDescent ? "descent" : "intensity");
+  return std::pair("In cluster", std::string(nameOf(s.inCluster)));
 }
 
 std::string nameOf(const Trade& trade, std::size_t i) {
@@ -47,8 +47,7 @@ void drawTable(Widgets& widgets, const Trade& trade, ViewerState& state) {
     }
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("cuts of %d, threshold %g, grid %d, by %s; %zu passes tried\nClick to use it", s.maxCut,
-                        static_cast<double>(s.threshold), s.gridResolution,
-                        s.inCluster == InCluster::kDescent ? "descent" : "intensity", trial.passes);
+                        static_cast<double>(s.threshold), s.gridResolution, nameOf(s.inCluster).data(), trial.passes);
     }
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(isKnown(trial) ? shortNumber(1e3 * trial.passSeconds, 4).c_str() : "-");

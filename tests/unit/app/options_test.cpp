@@ -186,7 +186,7 @@ TEST_F(RenderOptionsTest, QualityAutoTriesSettingsInWhichExplicitOptionsHold) {
     EXPECT_EQ(candidate.settings.maxCut, 77);
     EXPECT_EQ(candidate.settings.cellMemory, std::size_t{1} << 20);
   }
-  EXPECT_NE(options.candidates.back().settings.threshold, options.settings.sampler.threshold);
+  EXPECT_NE(options.candidates[1].settings.inCluster, options.settings.sampler.inCluster);
   EXPECT_THAT(refusalOf({"--quality", "best"}), HasSubstr("auto"));
 }
 
@@ -206,7 +206,7 @@ TEST_F(RenderOptionsTest, PinningOptionsMakeTheSameSettings) {
     const std::vector<std::string> args(std::istream_iterator<std::string>(words), {});
     EXPECT_EQ(parse(args).settings.sampler, s) << pinningOptions(s);
   }
-  EXPECT_EQ(pinningOptions({}), "--threshold 0.002 --max-cut 1024 --grid-resolution 16 --in-cluster descent");
+  EXPECT_EQ(pinningOptions({}), "--threshold 5e-04 --max-cut 1024 --grid-resolution 16 --in-cluster descent");
 }
 
 TEST_F(RenderOptionsTest, EnvironmentSettingsNeedAnEnvironment) {
