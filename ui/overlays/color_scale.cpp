@@ -13,7 +13,7 @@ constexpr std::size_t kMaxTicks = 9;
 /// Share of the maximum that a logarithm starts at where its minimum was pinned to nothing or less.
 constexpr double kPinnedDecades = 1e-3;
 /// The same where it was not pinned: what rounding leaves of a variance, 10⁻²⁸, would take all colours.
-constexpr double kMostDecades = 1e-6;
+constexpr double kMostDecades = 1e-8;
 
 std::optional<ValueRange> usable(const std::optional<ValueRange>& pinned, ScaleKind kind) {
   if (!pinned || !std::isfinite(pinned->minimum) || !std::isfinite(pinned->maximum)) return std::nullopt;

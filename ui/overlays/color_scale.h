@@ -33,7 +33,7 @@ struct ScaleSettings {
   bool operator==(const ScaleSettings&) const = default;
 };
 
-/// Least and largest of the finite values, for a logarithm of the positive ones and of six decades at most; nothing when
+/// Least and largest of the finite values, for a logarithm of the positive ones and of eight decades at most; nothing when
 /// there is none.
 std::optional<ValueRange> autoRange(const Image<float>& values, ScaleKind kind);
 

@@ -72,7 +72,7 @@ TEST(ColorScale, RangeIsThatOfTheFiniteValues) {
   const Image<float> values = row({3, kNan, -1, kInfinity, 7, 0});
   EXPECT_EQ(ColorScale(values, {}).range(), (ValueRange{-1, 7}));
   EXPECT_EQ(ColorScale(values, {.kind = ScaleKind::kLog}).range(), (ValueRange{3, 7}));
-  EXPECT_EQ(ColorScale(row({0, 1e-28f, 8}), {.kind = ScaleKind::kLog}).range(), (ValueRange{8e-6, 8}));
+  EXPECT_EQ(ColorScale(row({0, 1e-28f, 8}), {.kind = ScaleKind::kLog}).range(), (ValueRange{8e-8, 8}));
 }
 
 TEST(ColorScale, ValuesLieWhereTheirColourIs) {
