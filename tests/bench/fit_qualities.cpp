@@ -98,12 +98,12 @@ const Score& scoreOf(const std::vector<Score>& all, const SamplerSettings& setti
 
 /// The setting with the least of `what` among those that cost at most `mostCost`, or what it was when that is as good.
 const Score& best(const std::vector<Score>& all, const SamplerSettings& before, double mostCost, double Score::*what) {
-  const Score* least = nullptr;
-  for (const Score& s : all) {
-    if (s.cost <= mostCost && (!least || s.*what < least->*what)) least = &s;
-  }
-  const Score& stays = scoreOf(all, before);
-  return stays.cost <= mostCost && stays.*what <= kSlack * (least->*what) ? stays : *least;
+  const auto value = [&](const Score& s) {
+    return s.cost <= mostCost ? s.*what : std::numeric_limits<double>::infinity();
+  };
+  const auto isLess = [&](const Score& a, const Score& b) { return value(a) < value(b); };
+  const Score &least = *std::min_element(all.begin(), all.end(), isLess), &stays = scoreOf(all, before);
+  return value(stays) <= kSlack * value(least) ? stays : least;
 }
 
 std::string codeOf(std::string_view name, const SamplerSettings& s) {
