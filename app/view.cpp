@@ -3,9 +3,9 @@
 #include "app/verbs.h"
 #include "app/viewer_options.h"
 #include "renderer/base/error.h"
+#include "ui/viewer/frame_loop.h"
 #include "ui/viewer/script.h"
 
-#include <chrono>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -42,33 +42,6 @@ OpenedWindow windowFor(const ViewOptions& options) {
   return openAnyWindow(settings);
 }
 
-/// Frames that nobody asked for by input take at most this share of the time: OpenGL by software needs the cores that
-/// render.
-constexpr double kIdleShare = 0.1;
-
-void runUntilClosed(Viewer& viewer, Window& window) {
-  using Clock = std::chrono::steady_clock;
-  const auto secondsSince = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
-  Clock::time_point began = Clock::now(), ended = began;
-  double frameSeconds = 0;
-  while (!window.shouldClose()) {
-    const double sleep = viewer.sleepSeconds();
-    window.pollEvents();
-    if (sleep > 0 && !window.hasInput()) {
-      window.waitEvents(sleep);
-      const double rest = frameSeconds * (1 / kIdleShare - 1);
-      while (!window.hasInput() && !window.shouldClose() && secondsSince(ended) < rest) {
-        window.waitEvents(rest - std::min(rest, secondsSince(ended)));
-      }
-    }
-    const double elapsed = secondsSince(began);
-    began = Clock::now();
-    viewer.frame(elapsed);
-    ended = Clock::now();
-    frameSeconds = std::chrono::duration<double>(ended - began).count();
-  }
-}
-
 int showViewer(const ViewOptions& options, const Console& console) {
   if (options.headless && !options.script) {
     throw InputError("--headless", "needs --script; for a single picture there is 'cellcut screenshot'");
@@ -93,7 +66,8 @@ int showViewer(const ViewOptions& options, const Console& console) {
   if (options.script) {
     ScriptPlayer(*options.script, std::move(actions), std::filesystem::current_path()).play(viewer, *opened.window);
   } else {
-    runUntilClosed(viewer, *opened.window);
+    FrameLoop loop(viewer, *opened.window);
+    while (!opened.window->shouldClose()) loop.step();
   }
   return kDone;
 }
