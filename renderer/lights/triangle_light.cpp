@@ -48,7 +48,22 @@ float areaPdf(const TriangleGeometry& triangle, const Vec3& p, const Vec3& q) {
   return std::isfinite(pdf) ? pdf : 0.0f;
 }
 
-/// Barycentric weights of corners 1 and 2 where the ray from p along a unit direction meets the triangle's plane.
+Vec3 pointAt(const TriangleGeometry& triangle, Vec2 barycentric) {
+  return (1 - barycentric.x - barycentric.y) * triangle.corners[0] + barycentric.x * triangle.corners[1] +
+         barycentric.y * triangle.corners[2];
+}
+
+}  // namespace
+
+TriangleGeometry triangleGeometry(const Mesh& mesh, std::uint32_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  const std::array<Vec3, 3> c{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+  const glm::dvec3 origin(c[0]);
+  const glm::dvec3 cross = glm::cross(glm::dvec3(c[1]) - origin, glm::dvec3(c[2]) - origin);
+  const double length = glm::length(cross);
+  return {c, Vec3(cross * (1 / length)), static_cast<float>(0.5 * length)};
+}
+
 std::optional<Vec2> intersectPlane(const TriangleGeometry& triangle, const Vec3& p, const Vec3& direction) {
   // In double: the products of micrometre edges would leave the range of a float.
   const glm::dvec3 edge1 = glm::dvec3(triangle.corners[1]) - glm::dvec3(triangle.corners[0]);
@@ -65,22 +80,6 @@ std::optional<Vec2> intersectPlane(const TriangleGeometry& triangle, const Vec3&
     b2 /= sum;
   }
   return Vec2(b1, b2);
-}
-
-Vec3 pointAt(const TriangleGeometry& triangle, Vec2 barycentric) {
-  return (1 - barycentric.x - barycentric.y) * triangle.corners[0] + barycentric.x * triangle.corners[1] +
-         barycentric.y * triangle.corners[2];
-}
-
-}  // namespace
-
-TriangleGeometry triangleGeometry(const Mesh& mesh, std::uint32_t triangle) {
-  const Triangle& t = mesh.triangles[triangle];
-  const std::array<Vec3, 3> c{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-  const glm::dvec3 origin(c[0]);
-  const glm::dvec3 cross = glm::cross(glm::dvec3(c[1]) - origin, glm::dvec3(c[2]) - origin);
-  const double length = glm::length(cross);
-  return {c, Vec3(cross * (1 / length)), static_cast<float>(0.5 * length)};
 }
 
 std::optional<TrianglePoint> sampleTriangle(const TriangleGeometry& triangle, const Vec3& p, Vec2 u) {

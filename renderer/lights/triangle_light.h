@@ -28,6 +28,10 @@ struct TriangleGeometry {
 };
 TriangleGeometry triangleGeometry(const Mesh& mesh, std::uint32_t triangle);
 
+/// Barycentric weights of corners 1 and 2 where the ray from p meets the triangle's plane, or the nearest on its edge.
+/// In double. Nothing for a ray along the plane.
+std::optional<Vec2> intersectPlane(const TriangleGeometry& triangle, const Vec3& p, const Vec3& direction);
+
 /// A point on the triangle as seen from elsewhere.
 struct TrianglePoint {
   Vec2 barycentric;  ///< weights of corners 1 and 2

@@ -1,6 +1,7 @@
 #include "renderer/trace/accel.h"
 
 #include "renderer/base/rng.h"
+#include "renderer/lights/triangle_light.h"
 #include "renderer/scene/material.h"
 
 #include <atomic>
@@ -42,6 +43,14 @@ struct CoveredMesh {
   const Mesh* mesh;
 };
 
+/// Where a hit lies in its triangle. Embree leaves both weights 0 where the triangle as the ray sees it is smaller than
+/// 10⁻¹⁸ m² (its min_rcp_input), which those of a scene of a micrometre are.
+Vec2 barycentricOf(const Mesh& mesh, const RTCRay& ray, std::uint32_t triangle, Vec2 found) {
+  if (found != Vec2(0)) return found;
+  const Vec3 origin(ray.org_x, ray.org_y, ray.org_z), direction(ray.dir_x, ray.dir_y, ray.dir_z);
+  return intersectPlane(triangleGeometry(mesh, triangle), origin, direction).value_or(found);
+}
+
 /// Rejects a hit with probability 1 − coverage. The number is a hash of (ray, triangle): it does not depend on the
 /// order in which Embree meets the triangles.
 void filterCoverage(const RTCFilterFunctionNArguments* args) {
@@ -49,7 +58,9 @@ void filterCoverage(const RTCFilterFunctionNArguments* args) {
   const auto& context = *reinterpret_cast<const CoverageContext*>(args->context);
   if (args->valid[0] != -1) return;
   const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
-  const float share = coverage(*covered.scene, {covered.mesh, hit->primID, {hit->u, hit->v}});
+  const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
+  const Vec2 barycentric = barycentricOf(*covered.mesh, *ray, hit->primID, {hit->u, hit->v});
+  const float share = coverage(*covered.scene, {covered.mesh, hit->primID, barycentric});
   const float u = toUnitFloat(static_cast<std::uint32_t>(hashOf(context.seed, hit->geomID, hit->primID)));
   if (!(u < share)) args->valid[0] = 0;
 }
@@ -150,7 +161,9 @@ std::optional<Hit> Accel::intersect(const Ray& ray, std::uint32_t seed) const {
   rtcIntersect1(state_->scene, &context.embree, &query);
 #endif
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{query.ray.tfar, static_cast<MeshId>(query.hit.geomID), query.hit.primID, {query.hit.u, query.hit.v}};
+  const Mesh& mesh = *state_->covered[query.hit.geomID].mesh;
+  return Hit{query.ray.tfar, static_cast<MeshId>(query.hit.geomID), query.hit.primID,
+             barycentricOf(mesh, query.ray, query.hit.primID, {query.hit.u, query.hit.v})};
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t seed) const {
