@@ -78,10 +78,9 @@ GltfBuilder::Json GltfBuilder::finished() const {
   return copy;
 }
 
-std::vector<std::byte> GltfBuilder::glb() const {
-  std::string text = finished().dump();
+std::vector<std::byte> glbBytes(const nlohmann::json& json, std::vector<std::byte> data) {
+  std::string text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::vector<std::byte> data = buffer_;
   data.resize((data.size() + 3) / 4 * 4);
   const std::size_t size = 20 + text.size() + (data.empty() ? 0 : 8 + data.size());
   std::vector<std::byte> bytes;
@@ -97,6 +96,10 @@ std::vector<std::byte> GltfBuilder::glb() const {
     append(bytes, data);
   }
   return bytes;
+}
+
+std::vector<std::byte> GltfBuilder::glb() const {
+  return glbBytes(finished(), buffer_);
 }
 
 std::string GltfBuilder::gltf() const {

@@ -69,6 +69,9 @@ class GltfBuilder {
   std::vector<std::byte> buffer_;
 };
 
+/// A .glb of a document and its buffer 0.
+std::vector<std::byte> glbBytes(const nlohmann::json& json, std::vector<std::byte> data);
+
 /// Writes text or bytes and returns the file.
 std::filesystem::path writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 std::filesystem::path writeFile(const std::filesystem::path& file, const std::string& text);

@@ -1,0 +1,123 @@
+// Extremes of place together: scenes of a micrometre and of a thousand kilometres, 10,000 of their radii from the origin.
+#include "renderer/scene/load_scene.h"
+#include "renderer/scene/recipes/recipe.h"
+#include "tests/support/depth.h"
+#include "tests/support/glb_reader.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/images.h"
+#include "tests/support/nightly.h"
+#include "tests/support/strategies.h"
+#include "tests/support/temporary_directory.h"
+
+namespace cellcut::test {
+namespace {
+
+/// The recipe `kinds`, all five kinds of light, and the same as a node places it.
+class FarScenes {
+ public:
+  explicit FarScenes(std::size_t lights) : file_(readGlb(generateRecipe(Recipe::kKinds, lights, 1))) {
+    plain_ = load(file_);
+  }
+  const Scene& plain() const { return plain_; }
+
+  /// Of this radius in metres, and at 10⁴ radii from the origin. Lights at points have the intensities that light it as
+  /// before.
+  Scene placed(double radius) const {
+    const double scale = radius / static_cast<double>(plain_.bounds.radius());
+    const glm::dvec3 at = 1e4 * radius * glm::normalize(glm::dvec3(1, 0.7, -0.4));
+    Glb file = file_;
+    auto& roots = file.json["scenes"][0]["nodes"];
+    file.json["nodes"].push_back(
+        {{"children", roots}, {"scale", {scale, scale, scale}}, {"translation", {at.x, at.y, at.z}}});
+    roots = {file.json["nodes"].size() - 1};
+    for (auto& light : file.json["extensions"]["KHR_lights_punctual"]["lights"]) {
+      if (light["type"] != "directional") light["intensity"] = light.value("intensity", 1.0) * scale * scale;
+    }
+    return load(file);
+  }
+
+ private:
+  Scene load(const Glb& file) const {
+    return loadScene(writeFile(folder_ / "scene.glb", glbBytes(file.json, file.binary)));
+  }
+
+  TemporaryDirectory folder_;
+  Glb file_;
+  Scene plain_;
+};
+
+constexpr std::array kRadii{1e-6, 1e6};
+
+RenderSettings settingsOf(const SamplerVariant& variant) {
+  RenderSettings settings;
+  settings.width = settings.height = 48;
+  settings.maxDepth = 3;
+  settings.strategy = variant.strategy;
+  settings.sampler = variant.settings;
+  return settings;
+}
+
+TEST(PlacementOfAScene, KeepsItsTrianglesLightsAndSize) {
+  const FarScenes scenes(60);
+  for (const double radius : kRadii) {
+    const Scene scene = scenes.placed(radius);
+    EXPECT_NEAR(static_cast<double>(scene.bounds.radius()) / radius, 1, 1e-5);  // a few roundings to floats
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    EXPECT_EQ(scene.triangleCount(), scenes.plain().triangleCount());
+    EXPECT_EQ(Lights(scene).size(), Lights(scenes.plain()).size());
+  }
+}
+
+TEST(PlacementOfAScene, TurnsNoPathOfTheSameNumbers) {
+  // The uniform choice of a light does not look at where it is, so that only a hit or a surface could differ.
+  const FarScenes scenes(60);
+  const auto render = [](const Scene& scene) {
+    Renderer renderer(scene, settingsOf({"uniform", Strategy::kUniform}));
+    const std::atomic<bool> cancel{false};
+    for (int pass = 0; pass < 4; ++pass) EXPECT_TRUE(renderer.renderPass(cancel));
+    return renderer.film().mean();
+  };
+  const ImageRgb plain = render(scenes.plain());
+  for (const double radius : kRadii) {
+    const ImageRgb picture = render(scenes.placed(radius));
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      different += !(glm::length(picture[i] - plain[i]) <= 1e-3f * glm::length(plain[i]));
+    }
+    // Positions are rounded another way, and a path that passes an edge by less than that goes elsewhere.
+    EXPECT_LE(different, plain.size() / 100) << "pixels of " << plain.size() << ", radius " << radius;
+  }
+}
+
+class Placement : public testing::TestWithParam<SamplerVariant> {
+ protected:
+  static void expectSamePictures(const FarScenes& scenes, std::size_t passes) {
+    RenderSettings settings = settingsOf(GetParam());
+    const auto plain = renderEstimates(scenes.plain(), settings, passes);
+    for (const double radius : kRadii) {
+      ++settings.seed;
+      EXPECT_EQ(difference(renderEstimates(scenes.placed(radius), settings, passes), plain, kComparisons), "")
+          << "radius " << radius;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kComparisons = kRadii.size() * kSamplerVariants.size();
+};
+
+TEST_P(Placement, OfAMicrometreOrAThousandKilometresFarFromTheOriginKeepsThePicture) {
+  // A pass of these takes twenty times as long.
+  const bool isSlow = GetParam().strategy == Strategy::kProportional || GetParam().strategy == Strategy::kPointCut;
+  expectSamePictures(FarScenes(60), isSlow ? byDepth(8, 64) : byDepth(64, 1024));
+}
+
+TEST_P(Placement, KeepsThePictureOfAMillionLights) {
+  if (!isNightly()) GTEST_SKIP() << "a minute and more: ./dev nightly";
+  if (GetParam().strategy == Strategy::kProportional) GTEST_SKIP() << "a million lights at every vertex: hours";
+  expectSamePictures(FarScenes(1'000'000), 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Placement, testing::ValuesIn(kSamplerVariants), variantName);
+
+}  // namespace
+}  // namespace cellcut::test
