@@ -33,14 +33,19 @@ std::uint32_t bigEndian32(std::span<const std::byte> bytes, std::size_t at) {
   return value;
 }
 
-/// stb allocates what a chunk's length asks for before it looks whether the chunk is there.
+/// stb allocates what a chunk's length asks for before it looks whether the chunk is there. What comes after the last
+/// chunk it does not read.
 void checkPngChunks(std::span<const std::byte> png, const std::string& name) {
-  constexpr std::size_t kOverhead = 12;  // length, type and checksum
+  constexpr std::size_t kHeader = 8;  // length and type
+  constexpr std::size_t kChecksum = 4;
+  constexpr std::uint32_t kEnd = 0x49454e44;  // "IEND"
   std::size_t at = kPngSignature.size();
-  while (png.size() - at >= kOverhead) {
-    const std::uint32_t length = bigEndian32(png, at);
-    if (length > png.size() - at - kOverhead) throw InputError(name, "a PNG chunk reaches past the end of the file");
-    at += length + kOverhead;
+  while (png.size() - at >= kHeader) {
+    const std::uint64_t length = bigEndian32(png, at);
+    if (bigEndian32(png, at + 4) == kEnd) return;
+    at += kHeader;
+    if (length + kChecksum > png.size() - at) throw InputError(name, "a PNG chunk reaches past the end of the file");
+    at += length + kChecksum;
   }
 }
 

@@ -177,6 +177,27 @@ TEST(ImageIo, Png8RefusesChunkPastTheFile) {
   }
 }
 
+TEST(ImageIo, Png8RefusesAChunkOfGigabytesWhoseHeaderIsAllThereIs) {
+  std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
+  png[33] = std::byte{0x40};
+  constexpr std::size_t kFirstChunk = 33;
+  for (std::size_t header = 8; header < 12; ++header) {
+    const std::span cut = std::span(png).first(kFirstChunk + header);
+    try {
+      decodeImage8(cut, "cut");
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("past the end of the file"));
+    }
+  }
+}
+
+TEST(ImageIo, Png8IgnoresWhatFollowsItsLastChunk) {
+  std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
+  png.resize(png.size() + 100, std::byte{0x7f});
+  EXPECT_EQ(decodeImage8(png, "followed").width(), 16);
+}
+
 TEST(Pfm, ReadsBothByteOrdersFromTheBottomRow) {
   // Two grey pixels above each other, 1 at the bottom and 2 at the top.
   const auto little = bytesOf(std::string_view("Pf\n1 2\n-1\n\0\0\x80\x3f\0\0\0\x40", 18));
