@@ -16,8 +16,10 @@ class ProportionalSampler final : public LightSampler {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const auto light = static_cast<LightId>(i);
       const double weight = lights_.irradiance(light, point.p, point.n);
-      if (!(weight > 0)) continue;
-      last = SampledLight{light, static_cast<float>(weight / sum)};
+      // 10⁻⁴⁵ of all has no probability that a float holds.
+      const auto pmf = static_cast<float>(weight / sum);
+      if (!(pmf > 0)) continue;
+      last = SampledLight{light, pmf};
       left -= weight;
       if (left < 0) break;
     }
