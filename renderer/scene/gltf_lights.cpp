@@ -98,7 +98,7 @@ void readLights(const GltfDocument& document, const std::vector<GltfNode>& nodes
     }
     PlacedLight placed{document.model.lights[light], node.world, placeOf(document, "lights", light), Vec3(0)};
     placed.power = powerOf(placed, options.punctualScale);
-    addLight(placed, draft);
+    if (!isBlack(placed.power)) addLight(placed, draft);  // else it is switched off, and no strategy shall choose it
   }
 }
 

@@ -102,6 +102,7 @@ struct Mesh {
   std::vector<Triangle> triangles;             ///< none degenerate: every area > 0 and finite
 };
 
+/// Those that a file has switched off are left out: no light here is black.
 struct PointLight {
   Vec3 position;
   Vec3 intensity;  ///< W/sr

@@ -99,6 +99,16 @@ TEST_F(GltfLights, RefusesALightThatDoesNotExist) {
   EXPECT_THROW(load(file), InputError);
 }
 
+TEST_F(GltfLights, ThatAreSwitchedOffAreLeftOut) {
+  for (const char* type : {"point", "spot", "directional"}) {
+    for (const Json& off : {Json{{"type", type}, {"intensity", 0}}, Json{{"type", type}, {"color", {0, 0, 0}}}}) {
+      const Scene scene = loadLight(off);
+      EXPECT_EQ(scene.pointLights.size() + scene.spotLights.size() + scene.directionalLights.size(), 0u) << off;
+    }
+  }
+  EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e-45}}).pointLights.size(), 1u);
+}
+
 TEST_F(GltfLights, KeepTinyAndHugePowers) {
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e-30}}).pointLights[0].intensity, Vec3(1e-30f));
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e30}}).pointLights[0].intensity, Vec3(1e30f));
