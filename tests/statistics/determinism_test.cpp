@@ -34,7 +34,7 @@ class Determinism : public testing::TestWithParam<SamplerVariant> {};
 
 TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
   // Without it TBB starts no more threads than the machine has cores.
-  const tbb::global_control threadsAllowed(tbb::global_control::max_allowed_parallelism, 16);
+  const tbb::global_control threadsAllowed(tbb::global_control::max_allowed_parallelism, 64);
   const Scene scene = hardScene();
   const auto render = [&](int threads) {
     RenderSettings settings;
@@ -51,7 +51,7 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
     return std::pair(renderer.film().mean(), renderer.rays());
   };
   const auto [expected, expectedRays] = render(1);
-  for (const int threads : {1, 2, 7, 16}) {
+  for (const int threads : {1, 2, 7, 16, 64}) {
     for (std::size_t run = 0; run < byDepth(2, 5); ++run) {
       const auto [picture, rays] = render(threads);
       std::size_t different = 0;

@@ -2,6 +2,7 @@
 // that contributes is left out.
 #include "renderer/base/rng.h"
 #include "tests/support/depth.h"
+#include "tests/support/probabilities.h"
 #include "tests/support/reference.h"
 #include "tests/support/shading_points.h"
 #include "tests/support/statistics.h"
@@ -16,12 +17,6 @@ namespace {
 constexpr double kLastDouble = 1 - 0x1p-53;
 /// The largest that 24 bits make.
 constexpr double kLastFloat = 1 - 0x1p-24;
-
-std::vector<double> allPmfs(const LightSampler& sampler, const Lights& lights, const ShadingPoint& point) {
-  std::vector<double> pmf(lights.size());
-  for (std::size_t i = 0; i < pmf.size(); ++i) pmf[i] = sampler.pmf(point, static_cast<LightId>(i));
-  return pmf;
-}
 
 /// Quadrature cells per side of a triangle or texel: enough to see whether light arrives at all.
 constexpr int kAnyLight = 8;
