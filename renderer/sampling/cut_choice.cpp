@@ -125,10 +125,10 @@ class CutChoice {
     if (descends(inCluster_, tree, node)) {
       const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, DiffuseImportance{point_}, u);
       if (!leaf) return std::nullopt;
-      return SampledLight{tree.light(leaf->leaf), static_cast<float>(pmf * leaf->pmf)};
+      return sampledLight(tree.light(leaf->leaf), pmf * leaf->pmf);
     }
     const SampledLeaf leaf = tree.sampleByIntensity(node, u);
-    return SampledLight{tree.light(leaf.leaf), static_cast<float>(pmf * leaf.pmf)};
+    return sampledLight(tree.light(leaf.leaf), pmf * leaf.pmf);
   }
 
   /// Where the trees have a light.

@@ -72,7 +72,7 @@ class TreesDescent {
     const double rest = std::min((distant ? u - toLocal : u) / share, kAlmostOne);
     const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, tree.root(), importance_, rest);
     if (!leaf) return std::nullopt;
-    return SampledLight{tree.light(leaf->leaf), static_cast<float>(share * leaf->pmf)};
+    return sampledLight(tree.light(leaf->leaf), share * leaf->pmf);
   }
 
   /// \pre sum() > 0

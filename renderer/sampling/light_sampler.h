@@ -36,6 +36,13 @@ struct SampledLight {
   float pmf;  ///< P(light | point), > 0
 };
 
+/// A light that was drawn with a probability ≥ 0. Nothing where no float holds it (below 10⁻⁴⁵): pmf() calls that 0, and
+/// nobody can divide by it.
+inline std::optional<SampledLight> sampledLight(LightId light, double pmf) {
+  const auto rounded = static_cast<float>(pmf);
+  return rounded > 0 ? std::optional(SampledLight{light, rounded}) : std::nullopt;
+}
+
 /// What a strategy with cuts chooses from, for those who look at its decisions (inspection.h). Lives as long as the
 /// strategy.
 struct CutStrategy {

@@ -17,7 +17,7 @@ class PowerSampler final : public LightSampler {
   std::optional<SampledLight> sample(const ShadingPoint&, double u) const override {
     if (table_.empty()) return std::nullopt;
     const std::size_t i = table_.sample(u).index;
-    return SampledLight{static_cast<LightId>(i), table_.pmf(i)};
+    return sampledLight(static_cast<LightId>(i), static_cast<double>(table_.pmf(i)));
   }
   float pmf(const ShadingPoint&, LightId light) const override { return table_.pmf(static_cast<std::size_t>(light)); }
   std::size_t bytes() const override { return table_.bytes(); }

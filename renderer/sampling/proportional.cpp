@@ -16,10 +16,9 @@ class ProportionalSampler final : public LightSampler {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const auto light = static_cast<LightId>(i);
       const double weight = lights_.irradiance(light, point.p, point.n);
-      // 10⁻⁴⁵ of all has no probability that a float holds.
-      const auto pmf = static_cast<float>(weight / sum);
-      if (!(pmf > 0)) continue;
-      last = SampledLight{light, pmf};
+      const std::optional<SampledLight> drawn = sampledLight(light, weight / sum);
+      if (!drawn) continue;
+      last = drawn;
       left -= weight;
       if (left < 0) break;
     }

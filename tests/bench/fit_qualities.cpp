@@ -45,7 +45,6 @@ std::vector<Quality> candidates() {
       }
     }
   }
-  for (const int maxCut : {2048, 4096}) all.push_back({"", "", {.threshold = 0.0002f, .maxCut = maxCut}});
   for (const int grid : {8, 32}) all.push_back({"", "", {.gridResolution = grid}});
   return all;
 }

@@ -101,7 +101,8 @@ TEST_F(GltfLights, RefusesALightThatDoesNotExist) {
 
 TEST_F(GltfLights, ThatAreSwitchedOffAreLeftOut) {
   for (const char* type : {"point", "spot", "directional"}) {
-    for (const Json& off : {Json{{"type", type}, {"intensity", 0}}, Json{{"type", type}, {"color", {0, 0, 0}}}}) {
+    for (Json off : {Json{{"type", type}, {"intensity", 0}}, Json{{"type", type}, {"color", {0, 0, 0}}}}) {
+      if (off["type"] == "spot") off["spot"] = Json::object();
       const Scene scene = loadLight(off);
       EXPECT_EQ(scene.pointLights.size() + scene.spotLights.size() + scene.directionalLights.size(), 0u) << off;
     }
@@ -112,7 +113,6 @@ TEST_F(GltfLights, ThatAreSwitchedOffAreLeftOut) {
 TEST_F(GltfLights, KeepTinyAndHugePowers) {
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e-30}}).pointLights[0].intensity, Vec3(1e-30f));
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e30}}).pointLights[0].intensity, Vec3(1e30f));
-  EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 0}}).pointLights[0].intensity, Vec3(0));
 }
 
 TEST_F(GltfLights, PunctualScaleMultipliesLightsAndNotEmitters) {
