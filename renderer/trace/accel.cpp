@@ -37,7 +37,7 @@ struct CoverageContext {
   }
 };
 
-/// What a geometry with coverage knows of itself.
+/// What a geometry knows of itself: for coverage, and for triangles that Embree finds too small.
 struct CoveredMesh {
   const Scene* scene;
   const Mesh* mesh;

@@ -40,19 +40,7 @@ bool haveSamePaths(const Scene& scene, const RenderSettings& a, const RenderSett
 
 }  // namespace
 
-LivePicture::Niceness::Niceness(tbb::task_arena& arena) : task_scheduler_observer(arena) {
-  observe(true);
-}
-
-LivePicture::Niceness::~Niceness() {
-  observe(false);
-}
-
-void LivePicture::Niceness::on_scheduler_entry(bool) {
-  setThreadNiceness(kBuildNiceness);
-}
-
-LivePicture::LivePicture() : niceness_(arena_) {}
+LivePicture::LivePicture() : niceness_(arena_, kBuildNiceness) {}
 
 bool LivePicture::apply(SessionInput input) {
   check(input);

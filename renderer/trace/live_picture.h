@@ -5,13 +5,13 @@
 /// thread at a time, but that const members may run beside PassRenderer::renderTile().
 #pragma once
 
+#include "renderer/trace/arena_niceness.h"
 #include "renderer/trace/pass_renderer.h"
 #include "renderer/trace/session_input.h"
 
 #include <atomic>
 
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_scheduler_observer.h>
 
 namespace cellcut {
 
@@ -40,18 +40,8 @@ class LivePicture {
   }
 
  private:
-  /// Lowers the priority of TBB's threads when they come to help.
-  class Niceness : public tbb::task_scheduler_observer {
-   public:
-    explicit Niceness(tbb::task_arena& arena);
-    ~Niceness() override;
-    Niceness(const Niceness&) = delete;
-    Niceness& operator=(const Niceness&) = delete;
-    void on_scheduler_entry(bool isWorker) override;
-  };
-
   tbb::task_arena arena_;
-  Niceness niceness_;
+  ArenaNiceness niceness_;
   SessionInput input_;
   // Each refers to those above it.
   std::unique_ptr<PreparedScene> prepared_;

@@ -24,6 +24,7 @@ struct RenderSettings {
   PixelSampling sampling = PixelSampling::kSobol;
   std::uint64_t seed = 0;
   int threads = 0;             ///< 0: one per hardware thread
+  int niceness = 0;            ///< of the threads of a Renderer: setThreadNiceness(); a session has its own
   std::size_t camera = 0;      ///< index into Scene::cameras; sizes the grid of cells even where `view` is set
   std::optional<Camera> view;  ///< a free camera that is looked through instead
   bool auxiliary = true;       ///< albedo, normal and depth layers

@@ -1,9 +1,11 @@
 #include "renderer/trace/renderer.h"
 
+#include "renderer/trace/arena_niceness.h"
 #include "renderer/trace/pass_renderer.h"
 
 #include <cassert>
 #include <chrono>
+#include <memory>
 #include <utility>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -14,11 +16,13 @@ namespace cellcut {
 
 /// What all renderers of a scene share.
 struct Renderer::Base {
-  tbb::task_arena arena;  ///< comes before Embree's device, which would otherwise set limits for it
+  tbb::task_arena arena;                    ///< comes before Embree's device, which would otherwise set limits for it
+  std::unique_ptr<ArenaNiceness> niceness;  ///< null: nobody asks for another
   PreparedScene prepared;
 
-  Base(const Scene& scene, int threads)
-      : arena(threads > 0 ? threads : tbb::task_arena::automatic),
+  Base(const Scene& scene, const RenderSettings& r)
+      : arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic),
+        niceness(r.niceness > 0 ? std::make_unique<ArenaNiceness>(arena, r.niceness) : nullptr),
         prepared(arena.execute([&] { return PreparedScene(scene); })) {}
 };
 
@@ -39,7 +43,7 @@ struct Renderer::State {
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings) {
   assert(settings.camera < scene.cameras.size());
-  state_ = std::make_unique<State>(settings, std::make_shared<Base>(scene, settings.threads), nullptr);
+  state_ = std::make_unique<State>(settings, std::make_shared<Base>(scene, settings), nullptr);
 }
 
 Renderer::Renderer(const Renderer& other, const RenderSettings& settings) {

@@ -9,6 +9,8 @@ namespace {
 constexpr int kDriverNiceness = 10;
 /// A picture of 1280 × 720 has 40 × 23 pixels then.
 constexpr int kCoarsestPreviewScale = 32;
+/// Of the grace: a first preview that takes longer makes the next one coarser.
+constexpr double kSlowShare = 0.6;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -242,9 +244,13 @@ void SessionDriver::renderPreview() {
   snapshot->preview = true;
   snapshot->sampler = picture_.sampler().statistics();
   publish(std::move(snapshot));
-  // Twice as fine takes four times as long; another factor of two keeps it from flapping.
-  const bool quick = 8 * seconds < std::chrono::duration<double>(kPreviewGrace).count();
-  if (quick && previewScale_ == firstScale_) firstScale_ = std::max(firstScale_ / 2, kPreviewScale);
+  // Twice as fine takes four times as long; another factor of two keeps it from flapping. What is nearly as long as the
+  // grace is too slow for a hand.
+  const double share = seconds / std::chrono::duration<double>(kPreviewGrace).count();
+  if (previewScale_ == firstScale_) {
+    if (8 * share < 1) firstScale_ = std::max(firstScale_ / 2, kPreviewScale);
+    if (share > kSlowShare) firstScale_ = std::min(2 * firstScale_, kCoarsestPreviewScale);
+  }
   previewScale_ = previewScale_ > kPreviewScale ? previewScale_ / 2 : 0;
 }
 

@@ -115,9 +115,10 @@ std::string codeOf(std::string_view name, const SamplerSettings& s) {
 
 std::string rowOf(std::string_view name, const Score& s, const Score& balanced) {
   char text[256];
-  std::snprintf(text, sizeof text, "| `%s` | %d | %g | %s | %.2f | %.2f | %.2f |\n", name.data(), s.settings.maxCut,
-                static_cast<double>(s.settings.threshold), nameOf(s.settings.inCluster).data(),
-                s.seconds / balanced.seconds, s.error / balanced.error, s.cost / balanced.cost);
+  std::snprintf(text, sizeof text, "| `%s` | %d | %g | %d | %s | %.2f | %.2f | %.2f |\n", name.data(),
+                s.settings.maxCut, static_cast<double>(s.settings.threshold), s.settings.gridResolution,
+                nameOf(s.settings.inCluster).data(), s.seconds / balanced.seconds, s.error / balanced.error,
+                s.cost / balanced.cost);
   return text;
 }
 
@@ -135,20 +136,21 @@ std::string withTable(const std::string& text, const std::string& table) {
 }
 
 void fit(const std::string& code, const std::string& readme) {
+  std::ifstream in(readme);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  withTable(text, "");  // before minutes are spent
   const std::vector<Score> all = scores();
   const Score& balanced = best(all, kQualities[1].settings, std::numeric_limits<double>::infinity(), &Score::cost);
   const Score& preview = best(all, kQualities[0].settings, kMostCost * balanced.cost, &Score::seconds);
   const Score& accurate = best(all, kQualities[2].settings, kMostCost * balanced.cost, &Score::error);
-  write(code, "// Written by `./dev fit`, which measures: not by hand.\n" + codeOf("Preview", preview.settings) +
-                  codeOf("Balanced", balanced.settings) + codeOf("Accurate", accurate.settings));
-  std::ifstream in(readme);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::string table =
-      "| `--quality` | clusters up to | threshold | in clusters by | seconds per pass | relMSE per sample | relMSE × "
-      "seconds "
-      "|\n|---|---|---|---|---|---|---|\n" +
+      "| `--quality` | clusters up to | threshold | cells along | in clusters by | seconds per pass | relMSE per "
+      "sample | "
+      "relMSE × seconds |\n|---|---|---|---|---|---|---|---|\n" +
       rowOf("preview", preview, balanced) + rowOf("balanced", balanced, balanced) +
       rowOf("accurate", accurate, balanced);
+  write(code, "// Written by `./dev fit`, which measures: not by hand.\n" + codeOf("Preview", preview.settings) +
+                  codeOf("Balanced", balanced.settings) + codeOf("Accurate", accurate.settings));
   write(readme, withTable(text, table));
   std::printf("%s", table.c_str());
 }

@@ -5,7 +5,7 @@
 namespace cellcut {
 namespace {
 
-/// Frames that nobody asked for by input take at most this share of the time: OpenGL by software needs the cores that
+/// Frames that nobody asked for, by input or by an edit that was not shown yet, take at most this share of the time: OpenGL by software needs the cores that
 /// render.
 constexpr double kIdleShare = 0.1;
 
@@ -18,7 +18,7 @@ void FrameLoop::step() {
   if (sleep > 0 && !window_.hasInput()) {
     window_.waitEvents(sleep);
     const double rest = frameSeconds_ * (1 / kIdleShare - 1);
-    while (!window_.hasInput() && !window_.shouldClose() && secondsSince(ended_) < rest) {
+    while (!window_.hasInput() && !window_.shouldClose() && !viewer_.awaitsPicture() && secondsSince(ended_) < rest) {
       window_.waitEvents(rest - std::min(rest, secondsSince(ended_)));
     }
   }

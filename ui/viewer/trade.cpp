@@ -11,10 +11,14 @@ bool isReady(const std::future<T>& future) {
   return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
+/// As that of a session's workers: the picture goes on and the UI wakes at once.
+constexpr int kNiceness = 19;
+
 Trade tryOut(const SessionInput& input, const std::atomic<bool>& cancel) {
   const std::vector<Quality> candidates = tradeCandidates(input.settings);
   RenderSettings settings = input.settings;
   settings.sampler = candidates[0].settings;
+  settings.niceness = kNiceness;
   Renderer renderer(*input.scene, settings);
   const QualityChoice choice = chooseQuality(renderer, candidates, {.seconds = kTradeLength}, cancel);
   return {input, choice.trials, bestTrial(choice.trials)};
@@ -24,7 +28,8 @@ Trade tryOut(const SessionInput& input, const std::atomic<bool>& cancel) {
 
 bool Trade::fits(const SessionInput& rendered) const {
   return input.scene == rendered.scene && input.settings.strategy == rendered.settings.strategy &&
-         input.settings.maxDepth == rendered.settings.maxDepth;
+         input.settings.maxDepth == rendered.settings.maxDepth &&
+         input.settings.shownLights == rendered.settings.shownLights;
 }
 
 std::vector<Quality> tradeCandidates(const RenderSettings& settings) {
@@ -52,8 +57,10 @@ std::vector<Quality> tradeCandidates(const RenderSettings& settings) {
   vary(&SamplerSettings::maxCut, std::min(kMaxCutSize, now.maxCut * 4));
   vary(&SamplerSettings::threshold, now.threshold / 4);
   vary(&SamplerSettings::threshold, std::min(1.0f, now.threshold * 4));
-  vary(&SamplerSettings::gridResolution, std::max(1, now.gridResolution / 2));
-  vary(&SamplerSettings::gridResolution, std::min(kMaxGridResolution, now.gridResolution * 2));
+  if (settings.strategy == Strategy::kCellCut) {
+    vary(&SamplerSettings::gridResolution, std::max(1, now.gridResolution / 2));
+    vary(&SamplerSettings::gridResolution, std::min(kMaxGridResolution, now.gridResolution * 2));
+  }
   vary(&SamplerSettings::inCluster, now.inCluster == InCluster::kDescent ? InCluster::kIntensity : InCluster::kDescent);
   return candidates;
 }
@@ -69,13 +76,13 @@ void TradeTrials::start(const SessionInput& input) {
 }
 
 void TradeTrials::stop() {
-  std::erase_if(ending_, [](const auto& ending) { return isReady(ending); });
   if (!made_.valid()) return;
   *cancel_ = true;
   ending_.push_back(std::move(made_));
 }
 
 std::optional<Trade> TradeTrials::take() {
+  std::erase_if(ending_, [](const auto& ending) { return isReady(ending); });
   if (!made_.valid() || !isReady(made_)) return std::nullopt;
   try {
     return made_.get();

@@ -5,6 +5,8 @@
 #include "renderer/measure/quality_choice.h"
 #include "renderer/trace/session_input.h"
 
+#include <atomic>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>

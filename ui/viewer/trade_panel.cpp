@@ -2,6 +2,10 @@
 #include "ui/viewer/panels.h"
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace cellcut {
 namespace {
@@ -15,15 +19,15 @@ bool isKnown(const QualityTrial& trial) {
   return std::isfinite(trial.inefficiency.value);
 }
 
-/// The one setting that a trial varies, as its slider is called, and its value; nothing for presets and the first trial.
+/// The one setting that a trial varies, as its slider is called, and its value; nothing if it varies none or several.
 std::optional<std::pair<std::string, std::string>> varied(const Trade& trade, const QualityTrial& trial) {
   const SamplerSettings &first = trade.trials[0].quality.settings, &s = trial.quality.settings;
-  if (!trial.quality.name.empty()) return std::nullopt;
-  if (s.maxCut != first.maxCut) return std::pair("Max cut", std::to_string(s.maxCut));
-  if (s.threshold != first.threshold) return std::pair("Threshold", shortNumber(static_cast<double>(s.threshold), 2));
-  if (s.gridResolution != first.gridResolution) return std::pair("Grid", std::to_string(s.gridResolution));
-  if (s.inCluster == first.inCluster) return std::nullopt;
-  return std::pair("In cluster", std::string(nameOf(s.inCluster)));
+  std::vector<std::pair<std::string, std::string>> all;
+  if (s.maxCut != first.maxCut) all.emplace_back("Max cut", std::to_string(s.maxCut));
+  if (s.threshold != first.threshold) all.emplace_back("Threshold", shortNumber(static_cast<double>(s.threshold), 2));
+  if (s.gridResolution != first.gridResolution) all.emplace_back("Grid", std::to_string(s.gridResolution));
+  if (s.inCluster != first.inCluster) all.emplace_back("In cluster", nameOf(s.inCluster));
+  return all.size() == 1 ? std::optional(all[0]) : std::nullopt;
 }
 
 std::string nameOf(const Trade& trade, std::size_t i) {
@@ -72,7 +76,8 @@ ViewerCommand drawTradePanel(Widgets& widgets, const ViewerFacts& facts, ViewerS
   widgets.text(
       "Inefficiency", inefficiency,
       "relMSE x seconds, as the samples tell: what a setting costs, however long it has rendered. Half of it is "
-      "the same picture in half the time. It is under the second number with 97 %");
+      "the same picture in half the time, and what else uses the cores counts. It is under the second number with 97 "
+      "%");
   ViewerCommand command = ViewerCommand::kNone;
   if (facts.trying) {
     if (widgets.button("Stop trials", "Keep the settings (I)")) command = ViewerCommand::kFindBest;

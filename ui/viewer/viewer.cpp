@@ -134,6 +134,8 @@ void Viewer::takeScene() {
     state_.selectedCluster.reset();
     state_.selectedLight = 0;
     pointedBefore_.reset();
+    trials_.stop();
+    trade_.reset();  // and with it the scene before
     recent_.add(options_.file);
     pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
     window_.setTitle("cellcut: " + options_.file.filename().string());
@@ -149,7 +151,6 @@ void Viewer::takeNews() {
   if (panelsHeld_) return;
   takeScene();
   takeReference();
-  takeTrade();
   if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
@@ -159,6 +160,7 @@ void Viewer::takeNews() {
   }
   // What is new may move the panels: not while a person presses something there.
   if (ImGui::IsAnyItemActive()) return;
+  takeTrade();
   std::optional<OverlayPicture> picture;
   guarded([&] {
     picture =

@@ -77,6 +77,8 @@ class Viewer {
   ImagePlacement placement() const { return placement_; }
   /// Whether the snapshot that is shown is of the newest edit and nothing is being loaded or looked up.
   bool settled() const;
+  /// Whether an edit has no picture yet.
+  bool awaitsPicture() const { return snapshot_->generation < generation_; }
   /// Whether nothing is left to do: no pass, no turn of a duel, no reference, no measurement.
   bool atRest() const;
   const Reference& reference() const { return reference_; }
