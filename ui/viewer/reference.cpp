@@ -1,6 +1,7 @@
 #include "ui/viewer/reference.h"
 
 #include "ui/viewer/camera_control.h"
+#include "ui/viewer/is_ready.h"
 
 #include <chrono>
 
@@ -49,9 +50,7 @@ std::optional<Reference> ReferenceMaker::take(bool now) {
 }
 
 void ReferenceMaker::end() {
-  std::erase_if(ending_, [](const auto& ending) {
-    return ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  });
+  std::erase_if(ending_, [](const auto& ending) { return isReady(ending); });
   if (session_) {
     ending_.push_back(std::async(std::launch::async, [session = std::move(session_)]() mutable { session.reset(); }));
   }

@@ -1,15 +1,11 @@
 #include "ui/viewer/trade.h"
 
+#include "ui/viewer/is_ready.h"
+
 #include <algorithm>
-#include <chrono>
 
 namespace cellcut {
 namespace {
-
-template <class T>
-bool isReady(const std::future<T>& future) {
-  return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
 
 /// As that of a session's workers: the picture goes on and the UI wakes at once.
 constexpr int kNiceness = 19;
@@ -83,7 +79,7 @@ void TradeTrials::stop() {
 
 std::optional<Trade> TradeTrials::take() {
   std::erase_if(ending_, [](const auto& ending) { return isReady(ending); });
-  if (!made_.valid() || !isReady(made_)) return std::nullopt;
+  if (!isReady(made_)) return std::nullopt;
   try {
     return made_.get();
   } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 #include "renderer/base/error.h"
 #include "renderer/trace/light_mask.h"
 #include "ui/gl_error.h"
+#include "ui/viewer/is_ready.h"
 
 #include <chrono>
 #include <ctime>
@@ -33,11 +34,6 @@ bool sameInput(const SessionInput& a, const SessionInput& b) {
 bool sameOverlay(const ViewerState& a, const ViewerState& b) {
   return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid &&
          a.overlay.slice == b.overlay.slice && a.pick == b.pick;
-}
-
-template <class T>
-bool isReady(const std::future<T>& future) {
-  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 }  // namespace

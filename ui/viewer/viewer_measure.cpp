@@ -1,18 +1,11 @@
 /// References, errors against them, and duels; bookmarks and recent files.
+#include "ui/viewer/is_ready.h"
 #include "ui/viewer/viewer.h"
 
 #include <chrono>
 #include <ctime>
 
 namespace cellcut {
-namespace {
-
-template <class T>
-bool isReady(const std::future<T>& future) {
-  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
-}  // namespace
 
 void Viewer::takeReference() {
   std::optional<Reference> taken = maker_.take();
