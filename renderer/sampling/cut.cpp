@@ -13,6 +13,9 @@ namespace {
 /// side that it shows vary over the cell.
 constexpr float kNearShare = 0.3f;
 
+/// All clusters of a cut that has no more are near: one block of them is weighed as fast as one cluster.
+constexpr std::size_t kFewClusters = kClusterBlock;
+
 }  // namespace
 
 LightTrees::LightTrees(const Lights& lights)
@@ -136,8 +139,9 @@ FarChoice::FarChoice(std::span<const double> weights)
     : cdf_(weights), sum_(std::accumulate(weights.begin(), weights.end(), 0.0)) {}
 
 Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters) {
+  const bool few = clusters.size() <= kFewClusters;
   const auto isNear = [&](const Cluster& c) {
-    return !c.distant && (region.radius == 0 || region.radius > kNearShare * c.meanDistance);
+    return !c.distant && (few || region.radius == 0 || region.radius > kNearShare * c.meanDistance);
   };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
   const auto nodeOf = [&](const Cluster& c) -> const LightTreeNode& {
