@@ -24,7 +24,8 @@ struct SampledLeaf {
   double pmf;
 };
 
-/// 44 bytes, so that two nodes per light with what belongs to them stay below 120 bytes.
+/// 44 bytes, so that two nodes per light with what belongs to them stay below 120 bytes. descent.cpp reads the members as
+/// eleven words in this order.
 class LightTreeNode {
  public:
   LightTreeNode() = default;

@@ -12,6 +12,8 @@
 
 #include "renderer/sampling/cut_weights.h"
 
+#include <limits>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -87,7 +89,8 @@ V localEstimates(V intensity, V radius, V distance, V cosTheta, M twoSided, V co
   const auto mean = hn::MulAdd(hn::Mul(radius, q), q, distance);
   const auto scale = hn::IfThenElse(hn::Gt(mean, zero), mean, one);
   const auto estimate = hn::Div(hn::Div(hn::Mul(intensity, hn::Max(cosEmit, margin)), scale), scale);
-  return hn::IfThenElseZero(reaches, hn::Max(hn::Min(estimate, hn::Set(d, kMaxWeight)), smallest));
+  return hn::IfThenElseZero(
+      reaches, hn::IfThenElse(hn::Gt(estimate, zero), hn::Min(estimate, hn::Set(d, kMaxWeight)), smallest));
 }
 
 }  // namespace cellcut::HWY_NAMESPACE

@@ -94,14 +94,13 @@ class CutChoice {
     const Place at = placeOf(light->light);
     const double fromCut = mirrored ? pmfFromCut(at) : static_cast<double>(light->pmf);
     const double fromMirrored = mirrored ? static_cast<double>(light->pmf) : mirrored_.pmf(at.distant, at.leaf);
-    light->pmf = mixed(fromCut, fromMirrored);
-    return light;
+    return sampledLight(light->light, mixed(fromCut, fromMirrored));
   }
 
   float pmf(LightId light) const {
     const Place at = placeOf(light);
     if (at.leaf == LightTree::kNoLeaf || !(weights_.sum > 0)) return 0;
-    return mixed(pmfFromCut(at), mirrored_.share() > 0 ? mirrored_.pmf(at.distant, at.leaf) : 0.0);
+    return static_cast<float>(mixed(pmfFromCut(at), mirrored_.share() > 0 ? mirrored_.pmf(at.distant, at.leaf) : 0.0));
   }
 
  private:
@@ -148,8 +147,8 @@ class CutChoice {
     return distant ? static_cast<std::uint32_t>(trees_.local.leafCount()) : 0;
   }
 
-  float mixed(double fromCut, double fromMirrored) const {
-    return static_cast<float>((1 - mirrored_.share()) * fromCut + mirrored_.share() * fromMirrored);
+  double mixed(double fromCut, double fromMirrored) const {
+    return (1 - mirrored_.share()) * fromCut + mirrored_.share() * fromMirrored;
   }
 
   double pmfFromCut(const Place& at) const {

@@ -8,7 +8,7 @@ float nearWeight(const BlockedFloats& near, std::size_t i, const Vec3& p, const 
   const auto value = [&](std::size_t field) { return near.field(field)[i]; };
   const Vec3 to = Vec3(value(kCentreX), value(kCentreY), value(kCentreZ)) - p;
   const float distance = glm::length(to), radius = value(kRadius), reach = radius * kReachMargin;
-  float factor = 1;
+  float emission = 1, receiver = 1;
   if (reach < distance) {
     const Vec3 direction = to / distance;
     const float sinU = reach / distance, cosU = safeSqrt(1 - sinU * sinU);
@@ -19,12 +19,15 @@ float nearWeight(const BlockedFloats& near, std::size_t i, const Vec3& p, const 
     const float cosO = value(kCosThetaO), sinO = value(kSinThetaO);
     const float cosEmit = cosSubClamped(cosSubClamped(cosTheta, sinTheta, cosO, sinO),
                                         sinSubClamped(cosTheta, sinTheta, cosO, sinO), cosU, sinU);
-    const bool reaches = cosEmit >= value(kCosThetaE) - kCosineMargin;
-    factor = reaches ? std::max(cosEmit, kCosineMargin) * receiverCosine(glm::dot(n, direction), cosU, sinU) : 0.0f;
+    if (cosEmit < value(kCosThetaE) - kCosineMargin) return 0;
+    emission = std::max(cosEmit, kCosineMargin);
+    receiver = receiverCosine(glm::dot(n, direction), cosU, sinU);
   }
-  const float mean = meanDistance(distance, radius);
-  const float scale = mean > 0 ? mean : 1.0f;
-  return std::min(value(kIntensity) * factor / scale / scale, kMaxWeight);
+  const float mean = meanDistance(distance, radius), scale = mean > 0 ? mean : 1.0f;
+  const float estimate = std::min(value(kIntensity) * emission / scale / scale, kMaxWeight);
+  // As in localCluster(): what rounds to 0 is kept; padding is none.
+  if (!(value(kIntensity) > 0)) return 0;
+  return (estimate > 0 ? estimate : std::numeric_limits<float>::min()) * receiver;
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "renderer/sampling/descent.h"
 
+#include <algorithm>
+#include <array>
+
 // Highway compiles what follows once per instruction set and chooses at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "renderer/sampling/descent.cpp"
@@ -89,10 +92,10 @@ void weigh(const LightTree& tree, bool distant, const std::array<NodeId, kLanes>
     cosU = cosO, sinU = sinO;
     estimate = intensity;
   } else {
-    Floats lowerX, lowerY, lowerZ, upperX, upperY, upperZ, countAndSides, again, andAgain, onceMore;
+    Floats lowerX, lowerY, lowerZ, upperX, upperY, upperZ, countAndSides, unused6, unused7, unused8, unused9;
     load(0, lowerX, lowerY, lowerZ, upperX);
-    load(4, upperY, upperZ, again, andAgain);
-    load(7, again, andAgain, onceMore, countAndSides);
+    load(4, upperY, upperZ, unused6, unused7);
+    load(7, unused7, unused8, unused9, countAndSides);
     const auto half = set(0.5f);
     const auto radiusAlong = [&](auto lower, auto upper, auto& centre) {
       centre = hn::Add(hn::Mul(half, upper), hn::Mul(half, lower));

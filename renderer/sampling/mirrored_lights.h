@@ -11,7 +11,7 @@
 
 namespace cellcut {
 
-/// For the reflection of a surface. \pre point.lobe.alpha > 0
+/// For the reflection of a surface. \pre point.lobe.alpha ≥ 10⁻³, its least (ggx.h): its square is a float
 NodeImportance mirroredImportance(const ShadingPoint& point);
 
 /// The lights at a point as its surface mirrors them.

@@ -188,15 +188,18 @@ void Accel::intersect(std::span<const Ray> rays, std::span<const std::uint32_t> 
   assert(rays.size() <= kRayPacket && seeds.size() == rays.size() && hits.size() == rays.size());
   alignas(32) std::array<int, kRayPacket> valid{};  // −1 where there is a ray
   RTCRayHit8 query;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    valid[i] = -1;
-    query.ray.org_x[i] = rays[i].origin.x, query.ray.org_y[i] = rays[i].origin.y, query.ray.org_z[i] = rays[i].origin.z;
-    query.ray.dir_x[i] = rays[i].direction.x, query.ray.dir_y[i] = rays[i].direction.y;
-    query.ray.dir_z[i] = rays[i].direction.z;
-    query.ray.tnear[i] = kNearest, query.ray.tfar[i] = rays[i].tMax;
+  for (std::size_t i = 0; i < kRayPacket; ++i) {
+    // A lane without a ray has an empty one: Embree 3 without eight lanes of its own looks at nothing else.
+    const bool used = i < rays.size();
+    const Ray ray = used ? rays[i] : Ray{Vec3(0), Vec3(0, 0, 1), -kInfinity};
+    valid[i] = used ? -1 : 0;
+    query.ray.org_x[i] = ray.origin.x, query.ray.org_y[i] = ray.origin.y, query.ray.org_z[i] = ray.origin.z;
+    query.ray.dir_x[i] = ray.direction.x, query.ray.dir_y[i] = ray.direction.y;
+    query.ray.dir_z[i] = ray.direction.z;
+    query.ray.tnear[i] = kNearest, query.ray.tfar[i] = ray.tMax;
     query.ray.time[i] = 0;
     query.ray.mask[i] = 0xffffffffu;
-    query.ray.id[i] = static_cast<unsigned>(i);
+    query.ray.id[i] = used ? static_cast<unsigned>(i) : 0;
     query.ray.flags[i] = 0;
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;

@@ -4,6 +4,7 @@
 #include "renderer/trace/surface.h"
 
 #include <array>
+#include <cassert>
 
 namespace cellcut {
 namespace {
@@ -192,6 +193,7 @@ PathSample tracePath(const PathContext& context, const Ray& cameraRay, PixelSamp
 }
 
 void findFirstHits(const Accel& accel, std::span<CameraPath> paths) {
+  assert(paths.size() <= kRayPacket);
   std::array<Ray, kRayPacket> rays;
   std::array<std::uint32_t, kRayPacket> seeds;
   std::array<std::optional<Hit>, kRayPacket> hits;

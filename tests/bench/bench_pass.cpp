@@ -1,5 +1,5 @@
 /// \file bench_pass.cpp
-/// A whole pass against Embree alone on the same rays, and against itself on two threads.
+/// A whole pass against Embree alone on the same rays, one by one, and against itself on two threads.
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/renderer.h"
 #include "tests/bench/paired.h"

@@ -107,7 +107,7 @@ TEST_P(LightSamplerPmf, AgreesWithTheCountsOfSamples) {
   const auto sampler = samplerOf(lights);
   const std::vector<ShadingPoint> points = pathVertices(scene, byDepth(4, 64), seed());
   const std::size_t n =
-      affordable(sampleShare(byDepth(100'000, std::max<std::size_t>(1'000'000, 100 * lights.size()))));
+      affordable(sampleShare(byDepth(200'000, std::max<std::size_t>(1'000'000, 100 * lights.size()))));
   Rng rng(hashOf(seed(), 2));
   for (const ShadingPoint& point : points) {
     const std::vector<double> pmf = allPmfs(*sampler, lights, point);
