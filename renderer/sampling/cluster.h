@@ -5,6 +5,7 @@
 /// angles: Conty Estevez and Kulla 2018, section 5.
 #pragma once
 
+#include "renderer/base/capabilities.h"
 #include "renderer/lights/light_tree.h"
 #include "renderer/sampling/cut_weights.h"
 
@@ -98,7 +99,7 @@ inline Cluster distantCluster(const LightTree& tree, NodeId id) {
 
 /// A node of either tree as seen from a point.
 inline std::optional<Cluster> clusterAt(const LightTree& tree, bool distant, NodeId id, const Vec3& p) {
-  if (distant) return distantCluster(tree, id);
+  if (kCanHaveDistantLights && distant) return distantCluster(tree, id);
   return localCluster(tree, id, PointRegion{p});
 }
 

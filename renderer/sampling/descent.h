@@ -57,7 +57,8 @@ class TreesDescent {
  public:
   TreesDescent(const LightTrees& trees, const Importance& importance) : trees_(trees), importance_(importance) {
     if (!trees.local.empty()) local_ = importance(trees.local, false, trees.local.root());
-    if (!trees.distant.empty()) distant_ = importance(trees.distant, true, trees.distant.root());
+    if (kCanHaveDistantLights && !trees.distant.empty())
+      distant_ = importance(trees.distant, true, trees.distant.root());
   }
 
   /// Importance of both roots; 0: no light can contribute.
