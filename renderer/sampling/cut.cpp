@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <ranges>
 
 namespace cellcut {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 /// A cluster is near when the cell's radius is more than this share of their mean distance: then its distance and the
 /// side that it shows vary over the cell.
 constexpr float kNearShare = 0.3f;
+
+/// All clusters of a cut that has no more are near: one block of them is weighed as fast as one cluster.
+constexpr std::size_t kFewClusters = kClusterBlock;
 
 }  // namespace
 
@@ -132,22 +136,36 @@ double meanClampedCosine(float cosTheta, float spread) {
 }  // namespace
 
 FarChoice::FarChoice(std::span<const double> weights)
-    : table_(weights), sum_(std::accumulate(weights.begin(), weights.end(), 0.0)) {}
+    : cdf_(weights), sum_(std::accumulate(weights.begin(), weights.end(), 0.0)) {}
 
 Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters) {
+  const bool few = clusters.size() <= kFewClusters;
   const auto isNear = [&](const Cluster& c) {
-    return !c.distant && (region.radius == 0 || region.radius > kNearShare * c.meanDistance);
+    return !c.distant && (few || region.radius == 0 || region.radius > kNearShare * c.meanDistance);
   };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
   const auto nodeOf = [&](const Cluster& c) -> const LightTreeNode& {
     return (c.distant ? trees.distant : trees.local).node(c.node);
   };
   const auto addMember = [&](const Cluster& c) {
-    members_.push_back({c.node, c.distant, nodeOf(c).firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
+    const LightTreeNode& node = nodeOf(c);
+    members_.push_back(
+        {c.node, c.distant, node.leafCount() == 1, node.firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
   };
   members_.reserve(clusters.size());
-  for (const Cluster& c : clusters) {
-    if (isNear(c)) continue;
+  std::vector<std::uint16_t> far;  // by leaf
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (!isNear(clusters[i])) far.push_back(static_cast<std::uint16_t>(i));
+  }
+  std::vector<std::uint16_t> order(far.size());  // by estimate
+  std::iota(order.begin(), order.end(), std::uint16_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) {
+    return clusters[far[a]].estimate > clusters[far[b]].estimate;
+  });
+  farByLeaf_.resize(far.size());
+  for (const std::uint16_t position : order) {
+    const Cluster& c = clusters[far[position]];
+    farByLeaf_[position] = static_cast<std::uint16_t>(far_.size());
     // The mean of the directions in a cone; all of the weight would otherwise be where the cone's axis happens to point.
     far_.push_back({c.estimate, c.direction * (0.5f + 0.5f * c.cosThetaU), c.cosThetaU, c.sinThetaU});
     addMember(c);
@@ -216,23 +234,24 @@ Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
 }
 
 std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {
-  const auto find = [&](std::size_t first, std::size_t last) -> std::optional<std::size_t> {
-    const auto begin = members_.begin() + static_cast<std::ptrdiff_t>(first),
-               end = members_.begin() + static_cast<std::ptrdiff_t>(last);
+  // The last member, in the order of leaves, that does not begin after the leaf.
+  const auto find = [&](std::size_t count, const auto& memberAt) -> std::optional<std::size_t> {
+    const auto places = std::views::iota(std::size_t{0}, count);
     const auto after =
-        std::upper_bound(begin, end, leaf, [](std::uint32_t l, const Member& m) { return l < m.firstLeaf; });
-    if (after == begin) return std::nullopt;
-    const Member& member = *(after - 1);
-    const LightTree& tree = member.distant ? trees.distant : trees.local;
-    if (leaf - member.firstLeaf >= tree.node(member.node).leafCount()) return std::nullopt;
-    return static_cast<std::size_t>(after - 1 - members_.begin());
+        std::ranges::upper_bound(places, leaf, {}, [&](std::size_t i) { return members_[memberAt(i)].firstLeaf; });
+    if (after == places.begin()) return std::nullopt;
+    const std::size_t found = memberAt(static_cast<std::size_t>(after - places.begin()) - 1);
+    const Member& member = members_[found];
+    if (leaf - member.firstLeaf >= trees.of(member.distant).node(member.node).leafCount()) return std::nullopt;
+    return found;
   };
-  const auto far = find(0, far_.size());
-  return far ? far : find(far_.size(), members_.size());
+  const auto far = find(far_.size(), [&](std::size_t i) { return std::size_t{farByLeaf_[i]}; });
+  return far ? far : find(near_.size(), [&](std::size_t i) { return far_.size() + i; });
 }
 
 std::size_t Cut::bytes() const {
-  std::size_t sum = sizeof(Cut) + far_.capacity() * sizeof(Far) + near_.bytes() + members_.capacity() * sizeof(Member);
+  std::size_t sum = sizeof(Cut) + far_.capacity() * sizeof(Far) + near_.bytes() + members_.capacity() * sizeof(Member) +
+                    farByLeaf_.capacity() * sizeof(std::uint16_t);
   if (!choices_) return sum;
   sum += kFacings * sizeof(choices_[0]);
   for (std::size_t i = 0; i < kFacings; ++i) {

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "renderer/base/capabilities.h"
-#include "renderer/sampling/alias_table.h"
 #include "renderer/sampling/cluster.h"
+#include "renderer/sampling/discrete_cdf.h"
 #include "renderer/sampling/sampler_settings.h"
 
 #include <atomic>
@@ -48,19 +48,19 @@ struct CutSettings {
 /// function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
 
-/// The far clusters of a cut as surfaces of one facing ask them: a choice that costs the same for any number of
+/// The far clusters of a cut as surfaces of one facing ask them: a choice that costs about the same for any number of
 /// clusters.
 class FarChoice {
  public:
-  FarChoice() : table_({}) {}
+  FarChoice() : cdf_({}) {}
   explicit FarChoice(std::span<const double> weights);
 
   double sum() const { return sum_; }  ///< of the weights
-  const AliasTable& table() const { return table_; }
-  std::size_t bytes() const { return sizeof(FarChoice) + table_.bytes(); }
+  const DiscreteCdf& cdf() const { return cdf_; }
+  std::size_t bytes() const { return sizeof(FarChoice) + cdf_.bytes(); }
 
  private:
-  AliasTable table_;
+  DiscreteCdf cdf_;
   double sum_ = 0;
 };
 
@@ -95,10 +95,11 @@ class Cut {
   struct Member {
     NodeId node;
     bool distant;
+    bool isLight;             ///< one light, that is to say
     std::uint32_t firstLeaf;  ///< numbered through both trees
     float estimate;           ///< for the region
   };
-  /// Far ones first, then the near ones in the order of near(); both in the order of their leaves.
+  /// Far ones first, by falling estimate; then the near ones in the order of near(), which is that of their leaves.
   const std::vector<Member>& members() const { return members_; }
   /// Index of the cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped.
   std::optional<std::size_t> memberOf(const LightTrees& trees, std::uint32_t leaf) const;
@@ -134,6 +135,7 @@ class Cut {
   std::vector<Far> far_;
   BlockedFloats near_;
   std::vector<Member> members_;
+  std::vector<std::uint16_t> farByLeaf_;  ///< members in the order of their leaves
   /// One per facing, made when a surface of that facing asks: a cache of a deterministic function.
   std::unique_ptr<std::atomic<const FarChoice*>[]> choices_;
   mutable VisitCount visits_;

@@ -55,7 +55,7 @@ struct CutWeights {
 
   CutWeights(const Cut& cut, const FarChoice& far, const ShadingPoint& point)
       : near(cut, point), sum(far.sum() + near.sum), toFar(sum > 0 ? far.sum() / sum : 0) {}
-  double farPmf(const FarChoice& far, std::size_t i) const { return static_cast<double>(far.table().pmf(i)) * toFar; }
+  double farPmf(const FarChoice& far, std::size_t i) const { return far.cdf().pmf(i) * toFar; }
   double nearPmf(std::size_t i) const { return static_cast<double>(near.weight[i]) / sum; }
   /// Probability of a member. \pre sum > 0
   double pmf(const Cut& cut, const FarChoice& far, std::size_t member) const {
@@ -110,20 +110,22 @@ class CutChoice {
     std::size_t chosen;
     double pmf;
     if (u < w.toFar) {
-      const AliasTable::Sample sample = far_.table().sample(std::min(u / w.toFar, kAlmostOne));
+      const DiscreteCdf::Sample sample = far_.cdf().sample(std::min(u / w.toFar, kAlmostOne));
       chosen = sample.index;
       u = sample.rest;
-      pmf = w.farPmf(far_, chosen);
+      pmf = sample.pmf * w.toFar;
     } else {
       u = std::min((u - w.toFar) / (w.near.sum / w.sum), kAlmostOne);
       const std::size_t i = chooseNear(w.near, cut_.near().blocks(), u);
       chosen = cut_.farCount() + i;
       pmf = w.nearPmf(i);
     }
-    const auto [node, distant, firstLeaf, estimate] = cut_.members()[chosen];
+    const auto [node, distant, isLight, firstLeaf, estimate] = cut_.members()[chosen];
     const LightTree& tree = trees_.of(distant);
+    if (isLight) return sampledLight(tree.light(firstLeaf - firstLeafOf(distant)), pmf);
     if (descends(inCluster_, tree, node)) {
-      const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, node, DiffuseImportance{point_}, u);
+      const std::optional<SampledLeaf> leaf =
+          sampleByDescent(tree, distant, node, NodeImportance{point_.p, point_.n}, u);
       if (!leaf) return std::nullopt;
       return sampledLight(tree.light(leaf->leaf), pmf * leaf->pmf);
     }
@@ -141,6 +143,11 @@ class CutChoice {
     return {distant, trees_.of(distant).leafOf(light)};
   }
 
+  /// The number of a tree's first leaf through both trees.
+  std::uint32_t firstLeafOf(bool distant) const {
+    return distant ? static_cast<std::uint32_t>(trees_.local.leafCount()) : 0;
+  }
+
   float mixed(double fromCut, double fromMirrored) const {
     return static_cast<float>((1 - mirrored_.share()) * fromCut + mirrored_.share() * fromMirrored);
   }
@@ -148,12 +155,11 @@ class CutChoice {
   double pmfFromCut(const Place& at) const {
     const auto [distant, leaf] = at;
     const LightTree& tree = trees_.of(distant);
-    const auto offset = distant ? static_cast<std::uint32_t>(trees_.local.leafCount()) : 0u;
-    const std::optional<std::size_t> member = cut_.memberOf(trees_, leaf + offset);
+    const std::optional<std::size_t> member = cut_.memberOf(trees_, leaf + firstLeafOf(distant));
     if (!member) return 0;
     const NodeId node = cut_.members()[*member].node;
     const double inside = descends(inCluster_, tree, node)
-                              ? pmfByDescent(tree, distant, node, DiffuseImportance{point_}, leaf)
+                              ? pmfByDescent(tree, distant, node, NodeImportance{point_.p, point_.n}, leaf)
                               : tree.pmfByIntensity(node, leaf);
     return weights_.pmf(cut_, far_, *member) * inside;
   }

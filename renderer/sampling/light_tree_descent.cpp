@@ -10,14 +10,14 @@ class LightTreeSampler final : public LightSampler {
   explicit LightTreeSampler(const Lights& lights) : trees_(lights) {}
 
   std::optional<SampledLight> sample(const ShadingPoint& point, double u) const override {
-    const auto descent = descentAt(point);
+    const TreesDescent descent = descentAt(point);
     return descent.sum() > 0 ? descent.sample(u) : std::nullopt;
   }
 
   float pmf(const ShadingPoint& point, LightId light) const override {
     const bool distant = light >= trees_.firstDistant;
     const std::uint32_t leaf = trees_.of(distant).leafOf(light);
-    const auto descent = descentAt(point);
+    const TreesDescent descent = descentAt(point);
     if (leaf == LightTree::kNoLeaf || !(descent.sum() > 0)) return 0;
     return static_cast<float>(descent.pmf(distant, leaf));
   }
@@ -25,7 +25,7 @@ class LightTreeSampler final : public LightSampler {
   SamplerStatistics statistics() const override { return {.tree = trees_.statistics()}; }
 
  private:
-  TreesDescent<DiffuseImportance> descentAt(const ShadingPoint& point) const { return {trees_, {point}}; }
+  TreesDescent descentAt(const ShadingPoint& point) const { return {trees_, {point.p, point.n}}; }
 
   LightTrees trees_;
 };

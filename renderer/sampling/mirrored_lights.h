@@ -11,19 +11,8 @@
 
 namespace cellcut {
 
-/// Importance for the GGX reflection at a point: the estimate × D of the half vector, with a lobe that is widened by
-/// what the cluster's extent turns the half vector.
-class MirroredImportance {
- public:
-  explicit MirroredImportance(const ShadingPoint& point);
-
-  double operator()(const LightTree& tree, bool distant, NodeId node) const;
-
- private:
-  const ShadingPoint& point_;
-  double alpha2_;
-  double perSpread_;
-};
+/// For the reflection of a surface. \pre point.lobe.alpha > 0
+NodeImportance mirroredImportance(const ShadingPoint& point);
 
 /// The lights at a point as its surface mirrors them.
 class MirroredLights {
@@ -38,7 +27,7 @@ class MirroredLights {
   double pmf(bool distant, std::uint32_t leaf) const { return descent_->pmf(distant, leaf); }
 
  private:
-  std::optional<TreesDescent<MirroredImportance>> descent_;
+  std::optional<TreesDescent> descent_;
   double share_ = 0;
 };
 

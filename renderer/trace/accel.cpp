@@ -5,7 +5,9 @@
 #include "renderer/lights/triangle_light.h"
 #include "renderer/scene/material.h"
 
+#include <array>
 #include <atomic>
+#include <cassert>
 #include <new>
 #include <stdexcept>
 
@@ -27,9 +29,9 @@ using QueryContext = RTCIntersectContext;
 /// Embree's context with what the coverage test needs. Embree hands a pointer to its own part back.
 struct CoverageContext {
   QueryContext embree;
-  std::uint32_t seed;
+  const std::uint32_t* seeds;  ///< by the number of the ray
 
-  explicit CoverageContext(std::uint32_t raySeed) : seed(raySeed) {
+  explicit CoverageContext(const std::uint32_t* raySeeds) : seeds(raySeeds) {
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&embree);
 #else
@@ -44,11 +46,17 @@ struct CoveredMesh {
   const Mesh* mesh;
 };
 
+Vec3 originOf(const RTCRay& ray) {
+  return {ray.org_x, ray.org_y, ray.org_z};
+}
+Vec3 directionOf(const RTCRay& ray) {
+  return {ray.dir_x, ray.dir_y, ray.dir_z};
+}
+
 /// Where a hit lies in its triangle. Embree leaves both weights 0 where the triangle as the ray sees it is smaller than
 /// 10⁻¹⁸ m² (its min_rcp_input), which those of a scene of a micrometre are.
-Vec2 barycentricOf(const Mesh& mesh, const RTCRay& ray, std::uint32_t triangle, Vec2 found) {
+Vec2 barycentricOf(const Mesh& mesh, const Vec3& origin, const Vec3& direction, std::uint32_t triangle, Vec2 found) {
   if (found != Vec2(0)) return found;
-  const Vec3 origin(ray.org_x, ray.org_y, ray.org_z), direction(ray.dir_x, ray.dir_y, ray.dir_z);
   return intersectPlane(triangleGeometry(mesh, triangle), origin, direction).value_or(found);
 }
 
@@ -57,22 +65,26 @@ Vec2 barycentricOf(const Mesh& mesh, const RTCRay& ray, std::uint32_t triangle, 
 void filterCoverage(const RTCFilterFunctionNArguments* args) {
   const auto& covered = *static_cast<const CoveredMesh*>(args->geometryUserPtr);
   const auto& context = *reinterpret_cast<const CoverageContext*>(args->context);
-  if (args->valid[0] != -1) return;
-  const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
-  const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
-  const Vec2 barycentric = barycentricOf(*covered.mesh, *ray, hit->primID, {hit->u, hit->v});
-  const float share = coverage(*covered.scene, {covered.mesh, hit->primID, barycentric});
-  const float u = toUnitFloat(static_cast<std::uint32_t>(hashOf(context.seed, hit->geomID, hit->primID)));
-  if (!(u < share)) args->valid[0] = 0;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const RTCRay ray = rtcGetRayFromRayN(args->ray, args->N, i);
+    const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, i);
+    const Vec2 barycentric = barycentricOf(*covered.mesh, originOf(ray), directionOf(ray), hit.primID, {hit.u, hit.v});
+    const float share = coverage(*covered.scene, {covered.mesh, hit.primID, barycentric});
+    const float u = toUnitFloat(static_cast<std::uint32_t>(hashOf(context.seeds[ray.id], hit.geomID, hit.primID)));
+    if (!(u < share)) args->valid[i] = 0;
+  }
 }
+
+/// Where rays begin. Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin, where
+/// there is no rounding error to be moved past, meets its own triangle at exactly 0.
+constexpr float kNearest = std::numeric_limits<float>::min();
 
 RTCRay embreeRay(const Ray& ray) {
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  // Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin, where there is no
-  // rounding error to be moved past, meets its own triangle at exactly 0.
-  r.tnear = std::numeric_limits<float>::min();
+  r.tnear = kNearest;
   r.tfar = ray.tMax;
   r.time = 0;
   r.mask = 0xffffffffu;
@@ -94,7 +106,15 @@ struct Accel::State {
     if (device) rtcReleaseDevice(device);
   }
   void attach(const Mesh& mesh, unsigned id, bool partlyCovered);
+  std::optional<Hit> hitOf(const RTCRay& ray, const RTCHit& hit) const;
 };
+
+std::optional<Hit> Accel::State::hitOf(const RTCRay& ray, const RTCHit& hit) const {
+  if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Mesh& mesh = *covered[hit.geomID].mesh;
+  return Hit{ray.tfar, static_cast<MeshId>(hit.geomID), hit.primID,
+             barycentricOf(mesh, originOf(ray), directionOf(ray), hit.primID, {hit.u, hit.v})};
+}
 
 void Accel::State::attach(const Mesh& mesh, unsigned id, bool partlyCovered) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -152,7 +172,7 @@ std::optional<Hit> Accel::intersect(const Ray& ray, std::uint32_t seed) const {
   query.ray = embreeRay(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  CoverageContext context(seed);
+  CoverageContext context(&seed);
 #if RTC_VERSION_MAJOR >= 4
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -161,15 +181,49 @@ std::optional<Hit> Accel::intersect(const Ray& ray, std::uint32_t seed) const {
 #else
   rtcIntersect1(state_->scene, &context.embree, &query);
 #endif
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const Mesh& mesh = *state_->covered[query.hit.geomID].mesh;
-  return Hit{query.ray.tfar, static_cast<MeshId>(query.hit.geomID), query.hit.primID,
-             barycentricOf(mesh, query.ray, query.hit.primID, {query.hit.u, query.hit.v})};
+  return state_->hitOf(query.ray, query.hit);
+}
+
+void Accel::intersect(std::span<const Ray> rays, std::span<const std::uint32_t> seeds,
+                      std::span<std::optional<Hit>> hits) const {
+  assert(rays.size() <= kRayPacket && seeds.size() == rays.size() && hits.size() == rays.size());
+  alignas(32) std::array<int, kRayPacket> valid{};  // −1 where there is a ray
+  RTCRayHit8 query;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    valid[i] = -1;
+    query.ray.org_x[i] = rays[i].origin.x, query.ray.org_y[i] = rays[i].origin.y, query.ray.org_z[i] = rays[i].origin.z;
+    query.ray.dir_x[i] = rays[i].direction.x, query.ray.dir_y[i] = rays[i].direction.y;
+    query.ray.dir_z[i] = rays[i].direction.z;
+    query.ray.tnear[i] = kNearest, query.ray.tfar[i] = rays[i].tMax;
+    query.ray.time[i] = 0;
+    query.ray.mask[i] = 0xffffffffu;
+    query.ray.id[i] = static_cast<unsigned>(i);
+    query.ray.flags[i] = 0;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  CoverageContext context(seeds.data());
+#if RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context.embree;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid.data(), state_->scene, &query, &arguments);
+#else
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid.data(), state_->scene, &context.embree, &query);
+#endif
+  auto* queries = reinterpret_cast<RTCRayHitN*>(&query);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto lane = static_cast<unsigned>(i);
+    hits[i] = state_->hitOf(rtcGetRayFromRayN(RTCRayHitN_RayN(queries, kRayPacket), kRayPacket, lane),
+                            rtcGetHitFromHitN(RTCRayHitN_HitN(queries, kRayPacket), kRayPacket, lane));
+  }
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t seed) const {
   RTCRay query = embreeRay(ray);
-  CoverageContext context(seed);
+  CoverageContext context(&seed);
 #if RTC_VERSION_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);

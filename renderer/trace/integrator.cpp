@@ -4,6 +4,8 @@
 #include "renderer/trace/light_mask.h"
 #include "renderer/trace/surface.h"
 
+#include <array>
+
 namespace cellcut {
 namespace {
 
@@ -59,11 +61,9 @@ class Path {
   Path(const PathContext& context, PixelSampler& random, PathCounts& counts)
       : context_(context), random_(random), counts_(counts) {}
 
-  PathSample trace(Ray ray) {
-    std::uint64_t coverageBits = random_.nextBits();
+  PathSample trace(Ray ray, std::optional<Hit> hit) {
     for (int depth = 0;; ++depth) {
       if (context_.record) context_.record->rays.push_back({ray, false});
-      const std::optional<Hit> hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(coverageBits));
       if (!hit) {
         addEnvironment(ray.direction);
         break;
@@ -88,8 +88,8 @@ class Path {
       const std::optional<Ray> next = scatter(vertex, numbers);
       if (!next || !survives(depth, numbers)) break;
       ++counts_.bounceRays;
-      coverageBits = numbers.extra;
       ray = *next;
+      hit = context_.accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
     }
     return result_;
   }
@@ -180,10 +180,33 @@ class Path {
   std::optional<Bounce> bounce_;  ///< nothing on the camera ray
 };
 
+/// Decides where partly covered surfaces let the camera ray through.
+std::uint32_t coverageSeed(PixelSampler& random) {
+  return static_cast<std::uint32_t>(random.nextBits());
+}
+
 }  // namespace
 
 PathSample tracePath(const PathContext& context, const Ray& cameraRay, PixelSampler& random, PathCounts& counts) {
-  return Path(context, random, counts).trace(cameraRay);
+  const std::optional<Hit> hit = context.accel.intersect(cameraRay, coverageSeed(random));
+  return Path(context, random, counts).trace(cameraRay, hit);
+}
+
+void findFirstHits(const Accel& accel, std::span<CameraPath> paths) {
+  std::array<Ray, kRayPacket> rays;
+  std::array<std::uint32_t, kRayPacket> seeds;
+  std::array<std::optional<Hit>, kRayPacket> hits;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    rays[i] = paths[i].ray;
+    seeds[i] = coverageSeed(paths[i].random);
+  }
+  accel.intersect(std::span(rays).first(paths.size()), std::span(seeds).first(paths.size()),
+                  std::span(hits).first(paths.size()));
+  for (std::size_t i = 0; i < paths.size(); ++i) paths[i].hit = hits[i];
+}
+
+PathSample tracePath(const PathContext& context, CameraPath& path, PathCounts& counts) {
+  return Path(context, path.random, counts).trace(path.ray, path.hit);
 }
 
 }  // namespace cellcut

@@ -46,4 +46,15 @@ struct PathCounts {
 /// Follows one path from a camera ray. Adds to `counts`.
 PathSample tracePath(const PathContext& context, const Ray& cameraRay, PixelSampler& random, PathCounts& counts);
 
+/// A path whose first hit is found together with those of its neighbours.
+struct CameraPath {
+  Ray ray;
+  PixelSampler random;
+  std::optional<Hit> hit{};
+};
+/// \param paths  at most kRayPacket
+void findFirstHits(const Accel& accel, std::span<CameraPath> paths);
+/// \pre findFirstHits()
+PathSample tracePath(const PathContext& context, CameraPath& path, PathCounts& counts);
+
 }  // namespace cellcut

@@ -52,13 +52,22 @@ void PassRenderer::renderTile(int tile, const std::atomic<bool>& cancel) {
   const glm::ivec2 begin = kTileSize * glm::ivec2(tile % tiles_.x, tile / tiles_.x);
   const glm::ivec2 end(std::min(begin.x + kTileSize, size.x), std::min(begin.y + kTileSize, size.y));
   PathCounts counts;
+  std::vector<CameraPath> paths;  // of neighbours in a row
+  paths.reserve(kRayPacket);
   for (int y = begin.y; y < end.y; ++y) {
-    for (int x = begin.x; x < end.x; ++x) {
-      if (cancel.load(std::memory_order_relaxed)) return;
-      PixelSampler random(sampling_, seed_, x, y, film_.passes());
-      const Sample4 position = random.next();
-      const Vec2 onFilm(static_cast<float>(x) + position[0], static_cast<float>(y) + position[1]);
-      film_.record(x, y, tracePath(context_, cameraRay(camera_, onFilm, size), random, counts));
+    for (int x = begin.x; x < end.x; x += static_cast<int>(paths.size())) {
+      paths.clear();
+      for (int i = x; i < end.x && paths.size() < kRayPacket; ++i) {
+        PixelSampler random(sampling_, seed_, i, y, film_.passes());
+        const Sample4 position = random.next();
+        const Vec2 onFilm(static_cast<float>(i) + position[0], static_cast<float>(y) + position[1]);
+        paths.push_back({cameraRay(camera_, onFilm, size), random});
+      }
+      findFirstHits(context_.accel, paths);
+      for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (cancel.load(std::memory_order_relaxed)) return;
+        film_.record(x + static_cast<int>(i), y, tracePath(context_, paths[i], counts));
+      }
     }
   }
   passBounce_.fetch_add(counts.bounceRays, std::memory_order_relaxed);

@@ -7,19 +7,22 @@
 
 namespace cellcut {
 
-/// Rays and vertices of the first direct-light pass of a scene's first camera, row by row.
+/// Rays and vertices of the first direct-light pass of a scene's first camera, tile by tile as a pass renders them.
 inline PathRecord recordPass(const Scene& scene, const Accel& accel, const Lights& lights, const LightSampler& sampler,
                              glm::ivec2 size) {
   PathRecord record;
   const PathContext context{scene, accel, lights, sampler, 1, true, false, &record};
   PathCounts counts;
-  for (int y = 0; y < size.y; ++y) {
-    for (int x = 0; x < size.x; ++x) {
-      PixelSampler random(PixelSampling::kSobol, 0, x, y, 0);
-      const Sample4 position = random.next();
-      const Vec2 onFilm(static_cast<float>(x) + position[0], static_cast<float>(y) + position[1]);
-      tracePath(context, cameraRay(scene.cameras[0], onFilm, size), random, counts);
-    }
+  constexpr int kTile = 16;
+  const glm::ivec2 tiles = (size + kTile - 1) / kTile;
+  for (int i = 0; i < tiles.x * tiles.y * kTile * kTile; ++i) {
+    const int tile = i / (kTile * kTile), inTile = i % (kTile * kTile);
+    const int x = tile % tiles.x * kTile + inTile % kTile, y = tile / tiles.x * kTile + inTile / kTile;
+    if (x >= size.x || y >= size.y) continue;
+    PixelSampler random(PixelSampling::kSobol, 0, x, y, 0);
+    const Sample4 position = random.next();
+    const Vec2 onFilm(static_cast<float>(x) + position[0], static_cast<float>(y) + position[1]);
+    tracePath(context, cameraRay(scene.cameras[0], onFilm, size), random, counts);
   }
   return record;
 }

@@ -1,6 +1,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/sampling/cell_cut.h"
 #include "renderer/sampling/cut.h"
+#include "renderer/sampling/descent.h"
 #include "renderer/sampling/facing.h"
 
 #include <array>
@@ -52,7 +53,7 @@ struct Lost {
     }
     const Lights lights(scene);
     const LightTrees trees(lights);
-    importance += !(nodeImportance(trees.local, false, trees.local.root(), c.point.p, c.point.n) > 0);
+    importance += !(importanceOf(trees.local, false, trees.local.root(), {c.point.p, c.point.n}) > 0);
     std::vector<Cluster> clusters;
     findCut(trees, {c.point.p, 0}, {1, 2}, clusters);
     if (clusters.size() != 1) clusters = {*localCluster(trees.local, trees.local.root(), Region{c.point.p, 0})};
@@ -92,7 +93,7 @@ TEST(ClusterBounds, ConesOfTinyAnglesKeepTheirLights) {
       const Vec3 n(glm::normalize(acrossAwayFrom(w, -middle) + w * decades(rng, -8, -3)));
       if (!(glm::dot(glm::dvec3(n), w) > 0)) continue;
       ++cases;
-      lost += !(nodeImportance(tree, true, tree.root(), Vec3(0), n) > 0);
+      lost += !(importanceOf(tree, true, tree.root(), {Vec3(0), n}) > 0);
     }
     EXPECT_GT(cases, 4000);
     EXPECT_EQ(lost, 0) << count << " lights";
@@ -202,7 +203,7 @@ TEST(ClusterBounds, ASkyOfOneTexelReachesEveryFacing) {
   const Lights lights(scene);
   const LightTrees trees(lights);
   for (std::size_t i = 0; i < kFacings; ++i) {
-    EXPECT_GT(nodeImportance(trees.distant, true, trees.distant.root(), Vec3(0), facing(i).axis), 0);
+    EXPECT_GT(importanceOf(trees.distant, true, trees.distant.root(), {Vec3(0), facing(i).axis}), 0);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/sampling/cell_grid.h"
 #include "renderer/sampling/cut_choice.h"
+#include "renderer/sampling/descent.h"
 #include "renderer/sampling/facing.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/scenes.h"
@@ -151,7 +152,7 @@ TEST(Cut, WeightOfAPointsOwnRegionIsTheImportance) {
   for (std::size_t i = 0; i < cut.near().size(); ++i) {
     const Cut::Member& m = cut.members()[cut.farCount() + i];
     ASSERT_FALSE(m.distant);
-    EXPECT_NEAR(weights[i], nodeImportance(many.trees.local, false, m.node, point.p, point.n), 1e-5 * sum);
+    EXPECT_NEAR(weights[i], importanceOf(many.trees.local, false, m.node, {point.p, point.n}), 1e-5 * sum);
   }
 }
 
@@ -187,10 +188,10 @@ TEST(Cut, FarWeightIsZeroOnlyWhereNoLightIsAboveTheHorizon) {
     const FarChoice far = cut.makeFarChoice(facingOf(n));
     const Vec3 p = region.centre + region.radius * randomUnit(rng);
     for (std::size_t k = 0; k < cut.farCount(); ++k) {
-      if (far.table().pmf(k) > 0) continue;
+      if (far.cdf().pmf(k) > 0) continue;
       ++zeros;
       const Cut::Member& m = cut.members()[k];
-      EXPECT_EQ(nodeImportance(m.distant ? many.trees.distant : many.trees.local, m.distant, m.node, p, n), 0);
+      EXPECT_EQ(importanceOf(m.distant ? many.trees.distant : many.trees.local, m.distant, m.node, {p, n}), 0);
     }
   }
   EXPECT_GT(zeros, 1000u);

@@ -7,6 +7,8 @@
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
+#include <array>
+
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
@@ -57,6 +59,49 @@ TEST(Accel, KnowsWhereAMinuteTriangleIsHit) {
     }
     EXPECT_FALSE(accel.intersect({size * Vec3(0.25f, 0.1f, 0), {0, 0, 1}}, 0)) << "the mask's hole, size " << size;
     EXPECT_FALSE(accel.occluded({size * Vec3(0.3f, 0.6f, 0), {0, 0, 1}}, 0)) << "the mask's hole, size " << size;
+  }
+}
+
+TEST(Accel, APacketFindsWhatItsRaysFindOneByOne) {
+  // Walls of many sizes, half of them partly covered, and rays of neighbouring pixels.
+  Rng rng(4);
+  for (const float size : {1e-9f, 1e-3f, 1.0f, 1e6f}) {
+    Scene scene;
+    Material glass = lambertian(Vec3(1));
+    glass.alphaMode = AlphaMode::kBlend;
+    glass.baseColor.w = 0.4f;
+    const std::array materials{addMaterial(scene, lambertian(Vec3(1))), addMaterial(scene, glass)};
+    for (std::size_t i = 0; i < 60; ++i) {
+      const Vec3 at = size * Vec3(rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(2, 8));
+      addQuad(scene, materials[i % 2], at, size * 2.0f * unitVector(rng), size * 2.0f * unitVector(rng));
+    }
+    const Accel accel(scene);
+    std::size_t found = 0;
+    for (std::uint32_t packet = 0; packet < 400; ++packet) {
+      const Vec3 middle(rng.uniform(-0.5f, 0.5f), rng.uniform(-0.5f, 0.5f), 1);
+      const std::size_t count = 1 + packet % kRayPacket;
+      std::array<Ray, kRayPacket> rays;
+      std::array<std::uint32_t, kRayPacket> seeds;
+      std::array<std::optional<Hit>, kRayPacket> hits;
+      for (std::size_t i = 0; i < count; ++i) {
+        rays[i] = {Vec3(0), glm::normalize(middle + 0.01f * unitVector(rng))};
+        seeds[i] = 100 * packet + static_cast<std::uint32_t>(i);
+      }
+      accel.intersect(std::span(rays).first(count), std::span(seeds).first(count), std::span(hits).first(count));
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::optional<Hit> alone = accel.intersect(rays[i], seeds[i]);
+        ASSERT_EQ(hits[i].has_value(), alone.has_value());
+        if (!alone) continue;
+        ++found;
+        ASSERT_EQ(hits[i]->mesh, alone->mesh);
+        ASSERT_EQ(hits[i]->triangle, alone->triangle);
+        // Embree's instructions are not the same for packets.
+        ASSERT_NEAR(hits[i]->t, alone->t, 1e-5f * alone->t);
+        ASSERT_LT(glm::length(hits[i]->barycentric - alone->barycentric), 1e-4f);
+      }
+      for (std::size_t i = count; i < kRayPacket; ++i) ASSERT_FALSE(hits[i]);
+    }
+    EXPECT_GT(found, 1000u) << size;
   }
 }
 
