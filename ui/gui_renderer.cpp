@@ -28,7 +28,8 @@ void describeVertices() {
 
 template <class T>
 void fill(GLenum target, const ImVector<T>& values) {
-  glBufferData(target, static_cast<GLsizeiptr>(values.Size * sizeof(T)), values.Data, GL_STREAM_DRAW);
+  glBufferData(target, static_cast<GLsizeiptr>(static_cast<std::size_t>(values.Size) * sizeof(T)), values.Data,
+               GL_STREAM_DRAW);
 }
 
 ImTextureID textureId(unsigned name) {

@@ -1,5 +1,6 @@
 #include "renderer/lights/lights.h"
 
+#include "renderer/base/capabilities.h"
 #include "renderer/base/ray.h"
 #include "renderer/scene/material.h"
 
@@ -49,7 +50,7 @@ std::optional<LightSample> sampleTriangleLight(const Scene& scene, const Triangl
 
   const SurfaceCoordinates at{&mesh, light.triangle, point->barycentric};
   Vec3 radiance = emission(scene, at);
-  if (material.alphaMode != AlphaMode::kOpaque) radiance *= coverage(scene, at);
+  if (kCanHaveAlpha && material.alphaMode != AlphaMode::kOpaque) radiance *= coverage(scene, at);
   if (isBlack(radiance)) return std::nullopt;
   const Vec3 toLight = point->position - p;
   const Vec3 error = triangleError(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
@@ -93,7 +94,7 @@ LightKind Lights::kind(LightId light) const {
   const auto id = static_cast<std::uint32_t>(light);
   assert(id < size());
   std::size_t kind = 0;
-  while (id >= first_[kind + 1]) ++kind;
+  while (id >= first_[kind + 1]) kind += !kCanHaveSpots && kind == 0 ? 2 : 1;
   return static_cast<LightKind>(kind);
 }
 
@@ -108,6 +109,7 @@ std::optional<LightSample> Lights::sample(LightId light, const Vec3& p, Vec2 u) 
     case LightKind::kPoint:
       return samplePosition(scene_.pointLights[i].position, scene_.pointLights[i].intensity, p);
     case LightKind::kSpot:
+      if constexpr (!kCanHaveSpots) break;
       return sampleSpot(scene_.spotLights[i], p);
     case LightKind::kTriangle:
       return sampleTriangleLight(scene_, triangles_[i], p, u);
@@ -120,7 +122,8 @@ std::optional<LightSample> Lights::sample(LightId light, const Vec3& p, Vec2 u) 
 
 std::optional<LightSample> Lights::sampleDistant(LightKind kind, std::size_t index, Vec2 u) const {
   LightSample sample{.radiance = Vec3(0), .wi = Vec3(0), .pdf = 1, .delta = true, .distant = true, .end = Vec3(0)};
-  if (kind == LightKind::kDirectional) {
+  if constexpr (!kCanHaveDistantLights) return std::nullopt;
+  if (!kCanHaveEnvironment || kind == LightKind::kDirectional) {
     const DirectionalLight& light = scene_.directionalLights[index];
     sample.radiance = light.irradiance;
     sample.wi = -light.axis;

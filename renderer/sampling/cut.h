@@ -5,6 +5,7 @@
 /// section 3.
 #pragma once
 
+#include "renderer/base/capabilities.h"
 #include "renderer/sampling/cluster.h"
 #include "renderer/sampling/discrete_cdf.h"
 #include "renderer/sampling/sampler_settings.h"
@@ -28,7 +29,7 @@ struct LightTrees {
   LightId firstDistant;  ///< lights from this number on are distant
   int exponent;          ///< intensities and estimates are in units of 2^exponent W/sr and W/m²
 
-  const LightTree& of(bool isDistant) const { return isDistant ? distant : local; }
+  const LightTree& of(bool isDistant) const { return kCanHaveDistantLights && isDistant ? distant : local; }
   TreeStatistics statistics() const;
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }

@@ -138,7 +138,7 @@ class CutChoice {
     std::uint32_t leaf;
   };
   Place placeOf(LightId light) const {
-    const bool distant = light >= trees_.firstDistant;
+    const bool distant = kCanHaveDistantLights && light >= trees_.firstDistant;
     return {distant, trees_.of(distant).leafOf(light)};
   }
 

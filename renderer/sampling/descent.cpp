@@ -87,7 +87,7 @@ void weigh(const LightTree& tree, bool distant, const std::array<NodeId, kLanes>
   axisX = hn::Mul(axisX, perLength), axisY = hn::Mul(axisY, perLength), axisZ = hn::Mul(axisZ, perLength);
 
   Floats toX, toY, toZ, cosU, sinU, estimate;
-  if (distant) {
+  if (kCanHaveDistantLights && distant) {
     toX = hn::Neg(axisX), toY = hn::Neg(axisY), toZ = hn::Neg(axisZ);
     cosU = cosO, sinU = sinO;
     estimate = intensity;
@@ -221,7 +221,8 @@ double pmfByDescent(const LightTree& tree, bool distant, NodeId node, const Node
 TreesDescent::TreesDescent(const LightTrees& trees, const NodeImportance& importance)
     : trees_(trees), importance_(importance) {
   if (!trees.local.empty()) local_ = importanceOf(trees.local, false, trees.local.root(), importance);
-  if (!trees.distant.empty()) distant_ = importanceOf(trees.distant, true, trees.distant.root(), importance);
+  if (kCanHaveDistantLights && !trees.distant.empty())
+    distant_ = importanceOf(trees.distant, true, trees.distant.root(), importance);
 }
 
 std::optional<SampledLight> TreesDescent::sample(double u) const {

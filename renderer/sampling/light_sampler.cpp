@@ -8,6 +8,8 @@ namespace cellcut {
 
 std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights, const SamplerSettings& settings,
                                                std::span<const Vec3> pilot) {
+  // One light is no choice: trees, a grid and cells for it would be 13 % of a pass and megabytes for nothing.
+  if (lights.size() == 1) return makeUniformSampler(lights);
   switch (strategy) {
     case Strategy::kUniform:
       return makeUniformSampler(lights);

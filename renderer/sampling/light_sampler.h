@@ -72,7 +72,7 @@ class LightSampler {
   virtual std::optional<CutStrategy> cutStrategy() const { return std::nullopt; }
 };
 
-/// Builds a strategy over lights that outlive it.
+/// Builds a strategy over lights that outlive it; over a single light that is the uniform one, whatever was asked for.
 /// \param pilot  points like those that it will be asked at, a fixed sample: they size the grid of cells
 std::unique_ptr<LightSampler> makeLightSampler(Strategy strategy, const Lights& lights,
                                                const SamplerSettings& settings = {}, std::span<const Vec3> pilot = {});

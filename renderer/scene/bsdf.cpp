@@ -15,7 +15,7 @@ Bsdf::Bsdf(const BsdfParameters& p)
       albedo_(p.roughness),
       alpha_(ggxAlpha(p.roughness)),
       reflects_(p.f90 > 0 || !isBlack(p.f0)) {
-  if (!reflects_) return;
+  if (!reflects()) return;
   const float mean = glm::dot(layer_, albedo_.mean());
   diffuse_ *= mean < 1 ? 1 / (1 - mean) : 0.0f;
 }
@@ -27,14 +27,14 @@ float Bsdf::reflectionShare(Vec2 albedo) const {
 }
 
 float Bsdf::reflectionProbability(Vec2 albedo) const {
-  if (!reflects_) return 0;
+  if (!reflects()) return 0;
   const float share = reflectionShare(albedo);
   return share < 1 ? std::clamp(share, 0.1f, 0.9f) : 1.0f;
 }
 
 Bsdf::Value Bsdf::eval(const Vec3& wo, const Vec3& wi) const {
   if (!(wo.z > 0 && wi.z > 0)) return {};
-  if (!reflects_) return {diffuse_, wi.z * kInvPi};
+  if (!reflects()) return {diffuse_, wi.z * kInvPi};
   const Vec2 albedo = albedo_(wo.z);
   const Vec3 h = glm::normalize(wo + wi);
   const Vec3 fresnel = f0_ + (Vec3(f90_) - f0_) * schlickWeight(glm::dot(wo, h));
@@ -51,7 +51,7 @@ Bsdf::Value Bsdf::eval(const Vec3& wo, const Vec3& wi) const {
 std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, float uLobe, Vec2 u) const {
   if (!(wo.z > 0)) return std::nullopt;
   Vec3 wi;
-  if (uLobe < reflectionProbability(albedo_(wo.z))) {
+  if (reflects() && uLobe < reflectionProbability(albedo_(wo.z))) {
     const Vec3 h = sampleVisibleNormal(alpha_, wo, u);
     wi = 2 * glm::dot(wo, h) * h - wo;
   } else {

@@ -5,6 +5,7 @@
 /// it; there is no transmission.
 #pragma once
 
+#include "renderer/base/capabilities.h"
 #include "renderer/scene/ggx_albedo.h"
 
 #include <optional>
@@ -41,10 +42,11 @@ class Bsdf {
   /// \param uLobe chooses between base and reflection
   std::optional<BsdfSample> sample(const Vec3& wo, float uLobe, Vec2 u) const;
   /// The reflection's part of all that is reflected towards wo, by albedos; [0, 1].
-  float reflectionShare(const Vec3& wo) const { return reflects_ ? reflectionShare(albedo_(wo.z)) : 0.0f; }
+  float reflectionShare(const Vec3& wo) const { return reflects() ? reflectionShare(albedo_(wo.z)) : 0.0f; }
   float alpha() const { return alpha_; }
 
  private:
+  bool reflects() const { return kCanHaveGgx && reflects_; }
   /// \param albedo  GgxAlbedo of the direction
   float reflectionShare(Vec2 albedo) const;
   float reflectionProbability(Vec2 albedo) const;

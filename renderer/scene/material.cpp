@@ -1,5 +1,6 @@
 #include "renderer/scene/material.h"
 
+#include "renderer/base/capabilities.h"
 #include "renderer/scene/texture.h"
 
 namespace cellcut {
@@ -19,7 +20,7 @@ auto interpolate(const Attribute& values, const SurfaceCoordinates& at) {
 
 /// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent.
 Vec4 slotValue(const Scene& scene, const TextureSlot& slot, TexelEncoding encoding, const SurfaceCoordinates& at) {
-  if (!slot.texture) return Vec4(1.0f);
+  if (!kCanHaveTextures || !slot.texture) return Vec4(1.0f);
   const std::vector<Vec2>& texCoords = at.mesh->texCoords[slot.texCoord];
   const Vec2 uv = texCoords.empty() ? Vec2(0.0f) : interpolate(texCoords, at);
   return lookup(scene, scene.textures[indexOf(*slot.texture)], encoding, slotUv(slot, uv));
@@ -80,13 +81,13 @@ bool anyTexel(const TexelFootprint& area, const auto& lights) {
 
 Vec3 emission(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
-  if (!material.emissionTexture.texture) return material.emission;
+  if (!kCanHaveTextures || !material.emissionTexture.texture) return material.emission;
   return material.emission * Vec3(slotValue(scene, material.emissionTexture, TexelEncoding::kSrgb, at));
 }
 
 float coverage(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
-  if (material.alphaMode == AlphaMode::kOpaque) return 1;
+  if (!kCanHaveAlpha || material.alphaMode == AlphaMode::kOpaque) return 1;
   const float alpha = std::clamp(baseColorAlpha(scene, at).w, 0.0f, 1.0f);
   if (material.alphaMode == AlphaMode::kMask) return alpha >= material.alphaCutoff ? 1.0f : 0.0f;
   return alpha;
@@ -104,7 +105,7 @@ Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3&
   Vec3 normal = interpolated / length;
 
   const Material& material = materialOf(scene, at);
-  if (material.normalTexture.texture && !at.mesh->tangents.empty()) {
+  if (kCanHaveTextures && material.normalTexture.texture && !at.mesh->tangents.empty()) {
     const Vec4 tangent4 = interpolate(at.mesh->tangents, at);
     const Vec3 inPlane = Vec3(tangent4) - glm::dot(Vec3(tangent4), normal) * normal;
     const float tangentLength = glm::length(inPlane);
@@ -129,6 +130,7 @@ bool canReflect(const Material& material) {
 Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
   const Vec3 color = baseColor(scene, at);
+  if (!kCanHaveGgx || !canReflect(material)) return Bsdf(BsdfParameters{.diffuse = color});
   const Vec4 metallicRoughness = slotValue(scene, material.metallicRoughnessTexture, TexelEncoding::kLinear, at);
   const float metallic = std::clamp(material.metallic * metallicRoughness.z, 0.0f, 1.0f);
   const float specular = material.specular * slotValue(scene, material.specularTexture, TexelEncoding::kLinear, at).w;

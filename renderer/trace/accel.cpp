@@ -1,5 +1,6 @@
 #include "renderer/trace/accel.h"
 
+#include "renderer/base/capabilities.h"
 #include "renderer/base/rng.h"
 #include "renderer/lights/triangle_light.h"
 #include "renderer/scene/material.h"
@@ -149,7 +150,7 @@ Accel::Accel(const Scene& scene) : state_(std::make_unique<State>()) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const Mesh& mesh = scene.meshes[i];
     state_->covered[i] = {&scene, &mesh};
-    const bool partlyCovered = scene.materials[indexOf(mesh.material)].alphaMode != AlphaMode::kOpaque;
+    const bool partlyCovered = kCanHaveAlpha && scene.materials[indexOf(mesh.material)].alphaMode != AlphaMode::kOpaque;
     if (!mesh.triangles.empty()) state_->attach(mesh, static_cast<unsigned>(i), partlyCovered);
   }
   rtcCommitScene(state_->scene);

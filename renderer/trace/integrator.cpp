@@ -1,5 +1,6 @@
 #include "renderer/trace/integrator.h"
 
+#include "renderer/base/capabilities.h"
 #include "renderer/trace/light_mask.h"
 #include "renderer/trace/surface.h"
 
@@ -105,7 +106,7 @@ class Path {
   }
 
   void addEnvironment(const Vec3& direction) {
-    if (!context_.scene.environment) return;
+    if (!kCanHaveEnvironment || !context_.scene.environment) return;
     const Vec2 uv = latLongFromDirection(*context_.scene.environment, direction);
     float weight = 1;
     if (bounce_) {
@@ -145,7 +146,7 @@ class Path {
     if (isBlack(scattering.value)) return;
 
     const Vec3 origin = offsetRayOrigin(vertex.surface.p, vertex.surface.error, vertex.normal, light->wi);
-    const Ray ray = light->distant ? Ray{origin, light->wi} : shadowRay(origin, light->end);
+    const Ray ray = kCanHaveDistantLights && light->distant ? Ray{origin, light->wi} : shadowRay(origin, light->end);
     ++counts_.shadowRays;
     if (context_.record) context_.record->rays.push_back({ray, true});
     if (context_.accel.occluded(ray, static_cast<std::uint32_t>(numbers.extra))) return;
