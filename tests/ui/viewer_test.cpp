@@ -1,18 +1,14 @@
 #include "ui/viewer/viewer.h"
 
-#include "renderer/base/error.h"
-#include "renderer/base/rng.h"
-#include "renderer/scene/load_scene.h"
 #include "renderer/scene/recipes/recipe.h"
-#include "renderer/trace/renderer.h"
-#include "tests/support/depth.h"
-#include "tests/support/scenes.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/ui/viewer_fixture.h"
 #include "ui/gl_error.h"
 #include "ui/memory_window.h"
-#include "ui/viewer/script.h"
 
-#include <fstream>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
@@ -34,44 +30,6 @@ std::vector<std::string> channelsOf(const std::filesystem::path& exr) {
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) names.emplace_back(channel.name());
   return names;
 }
-
-/// The viewer in memory on a small stage of all kinds of light, played by scripts as a person plays it.
-class ViewerTest : public testing::Test {
- protected:
-  ViewerTest() : window_(openWindow(WindowKind::kEgl, {.size = {400, 720}})), scene_(sceneOf(40)) { open({}); }
-  void open(ViewerOptions options) {
-    options.uiScale = 0.5f;  // all panels on a small picture, which llvmpipe draws quickly
-    options.state.settings.maxDepth = 1;
-    options.state.settings.threads = 2;
-    options.state.passLimit = 2;
-    options.saveFolder = folder_.path();
-    viewer_.reset();
-    viewer_ = std::make_unique<Viewer>(
-        *window_, scene_,
-        [](const std::filesystem::path& file) { return std::make_shared<const Scene>(loadScene(file)); }, options);
-  }
-  static std::shared_ptr<const Scene> sceneOf(int lights) {
-    return std::make_shared<const Scene>(stage(LightMix::kAll, lights, 3));
-  }
-  void play(const std::string& text) {
-    const std::filesystem::path file = folder_ / "script.txt";
-    std::ofstream(file) << text;
-    ScriptPlayer(file, readScript(file), folder_.path()).play(*viewer_, *window_);
-  }
-  std::string refusalOf(const std::string& text) {
-    try {
-      play(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
-
-  TemporaryDirectory folder_;
-  std::unique_ptr<Window> window_;
-  std::shared_ptr<const Scene> scene_;
-  std::unique_ptr<Viewer> viewer_;
-};
 
 TEST_F(ViewerTest, StrategiesAreToggledByListAndByKey) {
   play(
@@ -467,55 +425,90 @@ TEST_F(ViewerTest, AContextThatFailsIsWaitedForAndThenGivenUp) {
   window.makeCurrent();
 }
 
-TEST_F(ViewerTest, RandomEditsEndWithTheirOwnPicture) {
-  Rng rng(7);
-  const std::size_t edits = sampleShare(byDepth(320, 10'000));
-  for (std::size_t i = 0; i < edits; ++i) {
-    ViewerState& state = viewer_->state();
-    switch (rng.below(8)) {
-      case 0:
-        state.settings.strategy = kStrategies[rng.below(kStrategies.size())].strategy;
-        break;
-      case 1:
-        state.settings.sampler.maxCut = 2 + static_cast<int>(rng.below(60));
-        break;
-      case 2:
-        state.settings.sampler.gridResolution = 1 + static_cast<int>(rng.below(40));
-        break;
-      case 3:
-        state.settings.maxDepth = static_cast<int>(rng.below(4));
-        break;
-      case 4:
-        state.overlay.overlay = static_cast<Overlay>(rng.below(kOverlays.size()));
-        break;
-      case 5:
-        state.pick = glm::ivec2(static_cast<int>(rng.below(500)), static_cast<int>(rng.below(500)));
-        break;
-      case 6:
-        window_->resize({300 + static_cast<int>(rng.below(100)), 200 + static_cast<int>(rng.below(100))});
-        break;
-      case 7:
-        state.settings.view = dollied(poseOf(scene_->cameras[0], scene_->bounds), rng.uniform(-1, 1)).camera;
-        break;
-    }
-    viewer_->frame(1.0 / 60);
+/// A window that holds every thread that wakes it: nothing beside the UI gets on, as if a scene were being built.
+class HoldingWindow final : public MemoryWindow {
+ public:
+  explicit HoldingWindow(PixelSize size) : MemoryWindow(size), inner_(openWindow(WindowKind::kEgl, {.size = size})) {}
+  WindowKind kind() const override { return inner_->kind(); }
+  void makeCurrent() override {
+    inner_->makeCurrent();
+    const std::lock_guard lock(mutex_);
+    lastFrame_ = Clock::now();
   }
-  viewer_->state().overlay = {};
-  viewer_->state().pick.reset();
+  void wake() noexcept override {
+    std::unique_lock lock(mutex_);
+    ++held_;
+    // A UI that draws no frame waits for us: it is let go on, and found out.
+    while (!free_ && !stuck_) {
+      released_.wait_until(lock, lastFrame_ + kPatience);
+      stuck_ = !free_ && Clock::now() >= lastFrame_ + kPatience;
+    }
+    --held_;
+    lock.unlock();
+    MemoryWindow::wake();
+  }
+  void release() {
+    const std::lock_guard lock(mutex_);
+    free_ = true;
+    released_.notify_all();
+  }
+  int held() const {
+    const std::lock_guard lock(mutex_);
+    return held_;
+  }
+  /// Whether the UI has drawn nothing for two minutes while threads were held.
+  bool stuck() const {
+    const std::lock_guard lock(mutex_);
+    return stuck_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::minutes kPatience{2};  ///< of any frame, on a busy machine
+  std::unique_ptr<Window> inner_;
+  mutable std::mutex mutex_;
+  std::condition_variable released_;
+  Clock::time_point lastFrame_ = Clock::now();
+  int held_ = 0;
+  bool free_ = false, stuck_ = false;
+};
+
+TEST_F(ViewerTest, SessionsThatEndAreNotWaitedFor) {
+  viewer_.reset();
+  auto holding = std::make_unique<HoldingWindow>(PixelSize{400, 720});
+  HoldingWindow& window = *holding;
+  window_ = std::move(holding);
+  open({});
+  const auto untilHeld = [&](int sessions) {
+    while (window.held() < sessions && !window.stuck()) {
+      viewer_->frame(1.0 / 60);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  };
+  untilHeld(1);
+  viewer_->state().duel = true;
+  untilHeld(2);
+  window.post(KeyChange{Key::kJ, true});
+  window.post(KeyChange{Key::kJ, false});
+  untilHeld(3);
+  // The picture, the duel and the reference stand still. All of them are edited and ended, again and again.
+  for (int i = 0; i < 3; ++i) {
+    viewer_->state().duel = false;
+    viewer_->state().settings.strategy = Strategy::kPower;
+    viewer_->frame(1.0 / 60);
+    viewer_->state().duel = true;
+    viewer_->state().opponent = Strategy::kUniform;
+    window.post(KeyChange{Key::kJ, true});
+    window.post(KeyChange{Key::kJ, false});
+    for (int frame = 0; frame < 5; ++frame) viewer_->frame(1.0 / 60);
+  }
+  viewer_->state().duel = false;
+  viewer_->frame(1.0 / 60);
+  EXPECT_FALSE(window.stuck());
+  window.release();
   play("wait idle\n");
-  const std::shared_ptr<const Snapshot> shown = viewer_->session().snapshot();
-  RenderSettings settings = viewer_->state().settings;
-  EXPECT_EQ(shown->width, settings.width);
   EXPECT_EQ(viewer_->problem(), "");
-  EXPECT_EQ(shown->passes, 2u);
-  // The same picture as without a viewer; cells depend on the pilot's camera alone, which stayed.
-  Renderer renderer(*scene_, settings);
-  const std::atomic<bool> never{false};
-  for (int pass = 0; pass < 2; ++pass) renderer.renderPass(never);
-  const ImageRgb expected = renderer.film().mean();
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) different += expected[i] != (*shown->radiance)[i];
-  EXPECT_EQ(different, 0u);
+  EXPECT_TRUE(viewer_->session().snapshot()->sampler.grid == std::nullopt);
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ constexpr std::array<ImU32, 7> kColors{
     IM_COL32(245, 245, 245, 255), IM_COL32(230, 159, 0, 255), IM_COL32(86, 180, 233, 255), IM_COL32(0, 158, 115, 255),
     IM_COL32(240, 228, 66, 255),  IM_COL32(213, 94, 0, 255),  IM_COL32(204, 121, 167, 255)};
 
+/// Enough that 100 to 5000 are written out; each tick has one digit that is not 0.
+constexpr int kTickDigits = 4;
+
 bool canBeShown(const glm::dvec2& p) {
   return p.x > 0 && p.y > 0 && std::isfinite(p.x) && std::isfinite(p.y);
 }
@@ -68,7 +71,7 @@ void drawAxes(const PlotFrame& f, ImDrawList* list) {
   for (const double log : ticksOf(f.x)) {
     const float at = f.atX(log);
     list->AddLine(ImVec2(at, f.lower.y), ImVec2(at, f.upper.y), kGrid);
-    const std::string label = shortNumber(std::pow(10, log), 2);
+    const std::string label = shortNumber(std::pow(10, log), kTickDigits);
     const float width = ImGui::CalcTextSize(label.c_str()).x;
     const float left = std::clamp(at - 0.5f * width, f.lower.x, f.upper.x - width);
     if (left < free) continue;
@@ -81,7 +84,7 @@ void drawAxes(const PlotFrame& f, ImDrawList* list) {
     list->AddLine(ImVec2(f.lower.x, at), ImVec2(f.upper.x, at), kGrid);
     const float top = std::clamp(at - 0.5f * font, f.lower.y, f.upper.y - font);
     if (top + font > free) continue;
-    const std::string label = shortNumber(std::pow(10, log), 2);
+    const std::string label = shortNumber(std::pow(10, log), kTickDigits);
     list->AddText(ImVec2(f.lower.x - ImGui::CalcTextSize(label.c_str()).x - 0.3f * font, top), kText, label.c_str());
     free = top;
   }

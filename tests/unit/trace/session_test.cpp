@@ -191,7 +191,7 @@ TEST_F(Session, RandomEditsEndInTheRightPicture) {
     }
   };
   RenderSession session;
-  const std::size_t edits = byDepth(200, 2000);
+  const std::size_t edits = byDepth(200, 10'000);
   for (std::size_t i = 1; i <= edits; ++i) {
     change();
     ASSERT_EQ(session.edit(input), i);
