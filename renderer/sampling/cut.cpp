@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 
 namespace cellcut {
 namespace {
@@ -234,13 +233,20 @@ Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
 }
 
 std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {
-  // The last member, in the order of leaves, that does not begin after the leaf.
+  // The last member, in the order of leaves, that does not begin after the leaf. By hand: clang 14 cannot compile the views
+  // of GCC 12.
   const auto find = [&](std::size_t count, const auto& memberAt) -> std::optional<std::size_t> {
-    const auto places = std::views::iota(std::size_t{0}, count);
-    const auto after =
-        std::ranges::upper_bound(places, leaf, {}, [&](std::size_t i) { return members_[memberAt(i)].firstLeaf; });
-    if (after == places.begin()) return std::nullopt;
-    const std::size_t found = memberAt(static_cast<std::size_t>(after - places.begin()) - 1);
+    std::size_t after = 0;
+    for (std::size_t end = count; after < end;) {
+      const std::size_t middle = (after + end) / 2;
+      if (members_[memberAt(middle)].firstLeaf <= leaf) {
+        after = middle + 1;
+      } else {
+        end = middle;
+      }
+    }
+    if (after == 0) return std::nullopt;
+    const std::size_t found = memberAt(after - 1);
     const Member& member = members_[found];
     if (leaf - member.firstLeaf >= trees.of(member.distant).node(member.node).leafCount()) return std::nullopt;
     return found;
