@@ -3,6 +3,7 @@
 #include "renderer/sampling/facing.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 namespace cellcut {
@@ -152,17 +153,17 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
         {c.node, c.distant, node.leafCount() == 1, node.firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
   };
   members_.reserve(clusters.size());
-  std::vector<std::uint16_t> far;  // by leaf
+  std::vector<std::uint16_t> far;         // by leaf
+  std::vector<std::uint64_t> byEstimate;  // the bits of a positive float are in its order; then the place in `far`
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    if (!isNear(clusters[i])) far.push_back(static_cast<std::uint16_t>(i));
+    if (isNear(clusters[i])) continue;
+    byEstimate.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(clusters[i].estimate)} << 32 | far.size());
+    far.push_back(static_cast<std::uint16_t>(i));
   }
-  std::vector<std::uint16_t> order(far.size());  // by estimate
-  std::iota(order.begin(), order.end(), std::uint16_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) {
-    return clusters[far[a]].estimate > clusters[far[b]].estimate;
-  });
+  std::sort(byEstimate.begin(), byEstimate.end());
   farByLeaf_.resize(far.size());
-  for (const std::uint16_t position : order) {
+  for (const std::uint64_t key : byEstimate) {
+    const auto position = static_cast<std::uint16_t>(key);
     const Cluster& c = clusters[far[position]];
     farByLeaf_[position] = static_cast<std::uint16_t>(far_.size());
     // The mean of the directions in a cone; all of the weight would otherwise be where the cone's axis happens to point.
