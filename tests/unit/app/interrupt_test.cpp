@@ -38,6 +38,7 @@ TEST(InterruptDeathTest, SecondSignalQuitsAtOnce) {
 
 TEST(InterruptDeathTest, SignalsMeanWhatTheyDidBeforeOnceItIsGone) {
   const auto interruptAfterwards = [] {
+    std::signal(SIGINT, SIG_DFL);  // a shell lets what it starts in the background ignore it
     { const InterruptRequest interrupt; }
     std::raise(SIGINT);
     std::exit(0);

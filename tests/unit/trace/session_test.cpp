@@ -496,6 +496,7 @@ TEST_F(Session, AFirstEditThatIsRefusedLeavesNoPicture) {
 }
 
 TEST_F(Session, EditsThatArriveMeanwhileAreOne) {
+  input.preview = false;  // how many there are depends on how long they take
   std::mutex mutex;
   std::vector<std::uint64_t> generations;
   RenderSession* current = nullptr;
@@ -518,7 +519,7 @@ TEST_F(Session, EditsThatArriveMeanwhileAreOne) {
   release.set_value();
   session.waitIdle();
   const std::lock_guard lock(mutex);
-  EXPECT_EQ(generations, (std::vector<std::uint64_t>{1, 1, 1, 51, 51, 51}));
+  EXPECT_EQ(generations, (std::vector<std::uint64_t>{1, 1, 51, 51}));
   EXPECT_EQ(differentPixels(*session.snapshot()->radiance, renderHeadless(input, 2).picture), 0u);
 }
 
