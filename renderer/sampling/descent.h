@@ -13,8 +13,8 @@ namespace cellcut {
 
 inline constexpr double kAlmostOne = 1 - 0x1p-53;
 
-/// The importance of nodes at a point: their estimate there × receiverCosine, and where a lobe is given × how much of it
-/// reflects. 0 only if no light of the node can contribute.
+/// The importance of nodes at a point: their estimate there × receiverCosine, or where a lobe is given × how much of it
+/// reflects, which has the cosine in it. 0 only if no light of the node can contribute.
 struct NodeImportance {
   Vec3 p;  ///< metres
   Vec3 n;  ///< unit
