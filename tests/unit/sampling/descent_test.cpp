@@ -174,6 +174,26 @@ TEST(Descent, PmfsOfAllLeavesAndOfNoneSumToOneAndAreThoseOfSamples) {
   }
 }
 
+TEST(Descent, AFaintLightFarAwayKeepsItsProbabilityInAnyUnitOfLength) {
+  const auto faintPmf = [](int exponent) {
+    Scene scene;
+    for (const float faint : {1.0f, 1e-12f}) {
+      const Vec3 position(1e5f, faint < 1 ? 1e3f : 0.0f, 0);
+      scene.pointLights.push_back({std::ldexp(1.0f, exponent) * position, Vec3(std::ldexp(faint, 2 * exponent))});
+      scene.bounds.add(scene.pointLights.back().position);
+    }
+    const Lights lights(scene);
+    const LightTrees trees(lights);
+    return pmfByDescent(trees.local, false, trees.local.root(), {Vec3(0), Vec3(1, 0, 0)},
+                        trees.local.leafOf(LightId{1}));
+  };
+  const double plain = faintPmf(0);
+  EXPECT_NEAR(plain / 1e-12, 1, 1e-3);  // it is farther away by 5 parts in 10⁵
+  for (const int exponent : {-20, 20}) EXPECT_EQ(faintPmf(exponent), plain) << exponent;
+  // Its estimate is a denormal number there, of 14 bits.
+  EXPECT_NEAR(faintPmf(30) / plain, 1, 0x1p-13);
+}
+
 TEST(Descent, EndsOfTheUniformNumberFindLights) {
   Room room;
   for (int i = 0; i < 200; ++i) {
