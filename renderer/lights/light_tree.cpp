@@ -209,46 +209,16 @@ LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool 
   nodes_.resize(2 * lights.size() - 1);
   Builder(bounds, lights, nodes_).build(0, lights.size(), 0, 0);
 
+  std::vector<float> intensities;
+  intensities.reserve(lights.size());
+  for (const BuildLight& light : lights) intensities.push_back(light.intensity);
+  sums_ = LeafSums(intensities);
+
   leaves_.reserve(lights.size());
   for (const BuildLight& light : lights) {
     leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
     leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
   }
-}
-
-LightTree::Shares LightTree::intensityShares(NodeId id) const {
-  const auto l = static_cast<double>(node(left(id)).intensity()), r = static_cast<double>(node(right(id)).intensity());
-  // Not 1 − left: what is 10⁻¹⁷ of its sibling has a probability, too.
-  return {l / (l + r), r / (l + r)};
-}
-
-SampledLeaf LightTree::sampleByIntensity(NodeId id, double u) const {
-  constexpr double kAlmostOne = 1 - 0x1p-53;
-  double pmf = 1;
-  while (!isLeaf(id)) {
-    const auto [toLeft, toRight] = intensityShares(id);
-    if (u < toLeft) {
-      u = std::min(u / toLeft, kAlmostOne);
-      pmf *= toLeft;
-      id = left(id);
-    } else {
-      u = std::min((u - toLeft) / toRight, kAlmostOne);
-      pmf *= toRight;
-      id = right(id);
-    }
-  }
-  return {node(id).firstLeaf(), pmf};
-}
-
-double LightTree::pmfByIntensity(NodeId id, std::uint32_t leaf) const {
-  double pmf = 1;
-  while (!isLeaf(id)) {
-    const auto [toLeft, toRight] = intensityShares(id);
-    const bool isLeft = leaf < node(right(id)).firstLeaf();
-    pmf *= isLeft ? toLeft : toRight;
-    id = isLeft ? left(id) : right(id);
-  }
-  return pmf;
 }
 
 int LightTree::depth() const {
@@ -265,7 +235,7 @@ int LightTree::depth() const {
 
 std::size_t LightTree::bytes() const {
   return nodes_.capacity() * sizeof(LightTreeNode) + leaves_.capacity() * sizeof(LightId) +
-         leafOfLight_.capacity() * sizeof(std::uint32_t);
+         leafOfLight_.capacity() * sizeof(std::uint32_t) + sums_.bytes();
 }
 
 }  // namespace cellcut

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "renderer/base/octahedral.h"
+#include "renderer/lights/leaf_sums.h"
 #include "renderer/lights/light_bounds.h"
 
 #include <cstdint>
@@ -17,12 +18,6 @@
 namespace cellcut {
 
 enum class NodeId : std::uint32_t {};
-
-/// A leaf that was chosen below some node.
-struct SampledLeaf {
-  std::uint32_t leaf;
-  double pmf;
-};
 
 /// 44 bytes, so that two nodes per light with what belongs to them stay below 120 bytes. descent.cpp reads the members as
 /// eleven words in this order.
@@ -90,27 +85,18 @@ class LightTree {
   }
   static constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
-  /// Chooses a leaf of a node with probability proportional to J: child by child, and not by sums over leaves, in which
-  /// faint lights beside strong ones are lost.
-  /// \param u  uniform in [0, 1)
-  SampledLeaf sampleByIntensity(NodeId id, double u) const;
-  /// Its probability. \pre the leaf is below the node
-  double pmfByIntensity(NodeId id, std::uint32_t leaf) const;
+  /// For choosing a light by intensity, of the leaves of a node.
+  const LeafSums& sums() const { return sums_; }
 
   std::span<const LightTreeNode> nodes() const { return nodes_; }
   int depth() const;
   std::size_t bytes() const;
 
  private:
-  /// J of each child / J of both. \pre not a leaf
-  struct Shares {
-    double left, right;
-  };
-  Shares intensityShares(NodeId id) const;
-
   std::vector<LightTreeNode> nodes_;
   std::vector<LightId> leaves_;  ///< in depth-first order
   std::vector<std::uint32_t> leafOfLight_;
+  LeafSums sums_;
   LightId firstId_;
 };
 

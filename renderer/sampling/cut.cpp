@@ -149,8 +149,8 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
   };
   const auto addMember = [&](const Cluster& c) {
     const LightTreeNode& node = nodeOf(c);
-    members_.push_back(
-        {c.node, c.distant, node.leafCount() == 1, node.firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
+    members_.push_back({c.node, c.distant, node.leafCount() & 0x7fffffffu,
+                        node.firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
   };
   members_.reserve(clusters.size());
   std::vector<std::uint16_t> far;         // by leaf
@@ -233,7 +233,7 @@ Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
   return {mine.release(), true};
 }
 
-std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t leaf) const {
+std::optional<std::size_t> Cut::memberOf(std::uint32_t leaf) const {
   // The last member, in the order of leaves, that does not begin after the leaf. By hand: clang 14 cannot compile the views
   // of GCC 12.
   const auto find = [&](std::size_t count, const auto& memberAt) -> std::optional<std::size_t> {
@@ -249,7 +249,7 @@ std::optional<std::size_t> Cut::memberOf(const LightTrees& trees, std::uint32_t 
     if (after == 0) return std::nullopt;
     const std::size_t found = memberAt(after - 1);
     const Member& member = members_[found];
-    if (leaf - member.firstLeaf >= trees.of(member.distant).node(member.node).leafCount()) return std::nullopt;
+    if (leaf - member.firstLeaf >= member.leafCount) return std::nullopt;
     return found;
   };
   const auto far = find(far_.size(), [&](std::size_t i) { return std::size_t{farByLeaf_[i]}; });

@@ -94,15 +94,15 @@ class Cut {
   /// A cluster of the cut.
   struct Member {
     NodeId node;
-    bool distant;
-    bool isLight;             ///< one light, that is to say
+    bool distant : 1;
+    std::uint32_t leafCount : 31;
     std::uint32_t firstLeaf;  ///< numbered through both trees
     float estimate;           ///< for the region
   };
   /// Far ones first, by falling estimate; then the near ones in the order of near(), which is that of their leaves.
   const std::vector<Member>& members() const { return members_; }
   /// Index of the cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped.
-  std::optional<std::size_t> memberOf(const LightTrees& trees, std::uint32_t leaf) const;
+  std::optional<std::size_t> memberOf(std::uint32_t leaf) const;
 
   /// The weights of the far clusters for surfaces of one facing.
   FarChoice makeFarChoice(std::size_t facing) const;

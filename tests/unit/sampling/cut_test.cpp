@@ -109,7 +109,7 @@ TEST(Cut, HoldsEachLightOnce) {
     const Cut::Member& m = cut.members()[i];
     const LightTree& tree = m.distant ? many.trees.distant : many.trees.local;
     for (std::uint32_t leaf = 0; leaf < tree.node(m.node).leafCount(); ++leaf) {
-      EXPECT_EQ(cut.memberOf(many.trees, m.firstLeaf + leaf), i);
+      EXPECT_EQ(cut.memberOf(m.firstLeaf + leaf), i);
     }
   }
 }
