@@ -10,7 +10,7 @@ constexpr int kDriverNiceness = 10;
 /// A picture of 1280 × 720 has 40 × 23 pixels then.
 constexpr int kCoarsestPreviewScale = 32;
 /// Of the grace: a first preview that takes longer makes the next one coarser.
-constexpr double kSlowShare = 0.6;
+constexpr double kSlowShare = 0.4;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
