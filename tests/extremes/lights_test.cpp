@@ -150,11 +150,9 @@ TEST(LightsAtTheShadingPoint, AreCounted) {
 
 TEST_P(ExtremeLights, InsideACellAndOnItsBorderHaveAProbability) {
   // Cells of 1 m; lights in the middle of one, on its faces, edges and corners.
-  constexpr int kPilot = 2000;
-  std::vector<Vec3> pilot;
-  pilot.reserve(kPilot);
+  std::vector<Vec3> pilot(2000);
   Rng rng(6);
-  for (int i = 0; i < kPilot; ++i) pilot.push_back(4.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()));
+  for (Vec3& p : pilot) p = 4.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
   const Scene scene =
       pointLightsAt({{1.5f, 1.5f, 1.5f}, {1, 1.5f, 1.5f}, {2, 1.5f, 1.2f}, {1, 1, 1.5f}, {2, 2, 2}, {1, 1, 1}});
   const Lights lights(scene);
