@@ -62,6 +62,10 @@ SamplerSettings swept(SamplerSettings settings, const std::string& name, const s
   return settings;
 }
 
+std::string nameAt(const std::string& base, const SweepPoint& point) {
+  return base + "." + point.name + "=" + point.value;
+}
+
 /// The base of one strategy in one case, and the sweeps around it.
 std::vector<Configuration> configurationsOf(const MeasureOptions& options, const MeasurePlan& plan,
                                             std::size_t caseIndex, Strategy strategy) {
@@ -72,14 +76,14 @@ std::vector<Configuration> configurationsOf(const MeasureOptions& options, const
   for (const Sweep& sweep : options.sweeps) {
     if (sweep.name == "max-depth") continue;
     for (const std::string& value : sweep.values) {
+      const SweepPoint point{sweep.name, value};
       const SamplerSettings varied = swept(settings, sweep.name, value);
       const auto same =
           std::find_if(result.begin(), result.end(), [&](const Configuration& c) { return c.sampler == varied; });
       if (same != result.end()) {
-        same->points.push_back({sweep.name, value});
+        same->points.push_back(point);
       } else {
-        result.push_back(
-            {base + "." + sweep.name + "=" + value, caseIndex, strategy, varied, {{sweep.name, value}}, false});
+        result.push_back({nameAt(base, point), caseIndex, strategy, varied, {point}, false});
       }
     }
   }

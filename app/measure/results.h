@@ -34,7 +34,8 @@ struct CaseRecord {
 
 struct MeasureResults {
   MeasurePlan plan;
-  nlohmann::ordered_json settings;    ///< what all runs share: settingsJson()
+  /// What all runs share: settingsJson().
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
   std::vector<std::string> commands;  ///< that made it, in their order
   std::vector<CaseRecord> cases;      ///< as in the plan
   std::vector<RunRecord> runs;        ///< in the order in which they were done

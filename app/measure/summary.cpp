@@ -173,6 +173,7 @@ Checkpoint atTime(const RunRecord& run, double seconds) {
       *std::find_if(points.begin(), points.end(), [&](const Checkpoint& c) { return c.seconds > seconds; });
   const auto at = [&](const auto& value) {
     std::vector<CurvePoint> curve;
+    curve.reserve(points.size());
     for (const Checkpoint& c : points) curve.push_back({c.seconds, static_cast<double>(value(c))});
     return interpolateLogLog(curve, seconds);
   };

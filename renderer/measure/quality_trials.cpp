@@ -179,6 +179,7 @@ std::vector<QualityTrial> judgeTrials(std::span<const Quality> candidates,
   const ImageRgb blocks = blockMeans(judged);
   if (!(unitOf(blocks) > 0)) return trials;
   std::vector<std::vector<double>> pixels;
+  pixels.reserve(judged.size());
   for (const FilmState* film : judged) pixels.push_back(variances(*film, blocks));
   const double cap = capOf(pixels);
   const int width = films[0].mean.width();

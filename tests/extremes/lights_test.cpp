@@ -151,9 +151,9 @@ TEST(LightsAtTheShadingPoint, AreCounted) {
 
 TEST_P(ExtremeLights, InsideACellAndOnItsBorderHaveAProbability) {
   // Cells of 1 m; lights in the middle of one, on its faces, edges and corners.
-  std::vector<Vec3> pilot;
+  std::vector<Vec3> pilot(2000);
   Rng rng(6);
-  for (int i = 0; i < 2000; ++i) pilot.push_back(4.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform()));
+  for (Vec3& p : pilot) p = 4.0f * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
   const Scene scene =
       pointLightsAt({{1.5f, 1.5f, 1.5f}, {1, 1.5f, 1.5f}, {2, 1.5f, 1.2f}, {1, 1, 1.5f}, {2, 2, 2}, {1, 1, 1}});
   const Lights lights(scene);
@@ -185,9 +185,11 @@ TEST_P(ExtremeLights, CoincidentCollinearCoplanarOrPowersOfTwoApartHaveExactProb
   for (const Arrangement& arrangement : arrangements()) {
     SCOPED_TRACE(arrangement.name);
     const Scene scene = pointLightsAt(arrangement.positions);
+    constexpr int kPoints = 10;
     std::vector<ShadingPoint> points;
+    points.reserve(kPoints + 2);
     Rng rng(8);
-    for (int i = 0; i < 10; ++i) points.push_back({2.0f * unitVector(rng), unitVector(rng)});
+    for (int i = 0; i < kPoints; ++i) points.push_back({2.0f * unitVector(rng), unitVector(rng)});
     points.push_back({arrangement.positions[0], {0, 1, 0}});
     points.push_back({0.5f * (arrangement.positions[0] + arrangement.positions[1]), {0, 0, 1}});
     expectSoundAt(scene, points, kReach);

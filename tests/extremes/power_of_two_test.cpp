@@ -79,6 +79,7 @@ class PowersOfTwo : public testing::TestWithParam<SamplerVariant> {
     const Lights scaledLights(scaled), lights(plain);
     const auto positions = [](const std::vector<ShadingPoint>& of) {
       std::vector<Vec3> pilot;
+      pilot.reserve(of.size());
       for (const ShadingPoint& point : of) pilot.push_back(point.p);
       return pilot;
     };

@@ -36,6 +36,7 @@ TEST(IntervalCoverage, HoldsTheLongRunErrorOfRenderings) {
     return compareImages(render(scene, seed, kPasses), reference).relmse;
   };
   std::vector<double> errors;
+  errors.reserve(kRepetitions * kMostRuns);
   for (int i = 0; i < kRepetitions * kMostRuns; ++i) errors.push_back(errorOf(static_cast<std::uint64_t>(i)));
   double logarithm = 0;
   for (int i = 0; i < kLongRun; ++i) logarithm += std::log(errorOf(10'000 + static_cast<std::uint64_t>(i))) / kLongRun;

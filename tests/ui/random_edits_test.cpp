@@ -43,7 +43,7 @@ class RandomEdits : public ViewerTest {
   /// Another object each time, as a file is.
   std::shared_ptr<const Scene> load(const std::filesystem::path& file) {
     if (file == "bad.glb") throw InputError(file.string(), "is no scene");
-    const std::shared_ptr<const Scene> scene = file == "a.glb" ? sceneWith(40, 3) : sceneWith(15, 4);
+    std::shared_ptr<const Scene> scene = file == "a.glb" ? sceneWith(40, 3) : sceneWith(15, 4);
     const std::lock_guard lock(mutex_);
     loaded_ = scene;
     return scene;

@@ -63,8 +63,8 @@ void Widgets::remember(WidgetItem::Kind kind, const char* label, std::string val
   if (!reveal_.empty() && sameText(reveal_, label)) ImGui::SetScrollHereY(0.5f);
 }
 
-bool Widgets::section(const char* title, bool begins) {
-  const ImGuiTreeNodeFlags flags = begins ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+bool Widgets::section(const char* title, bool beginsOpen) {
+  const ImGuiTreeNodeFlags flags = beginsOpen ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
   const bool open = ImGui::CollapsingHeader(title, flags);
   remember(WidgetItem::Kind::kButton, title, open ? "open" : "closed");
   if (ImGui::IsItemToggledOpen()) changed(title, std::nullopt);

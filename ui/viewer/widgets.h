@@ -42,8 +42,7 @@ class Widgets {
   const std::vector<WidgetEdit>& edits() const { return edits_; }
 
   /// A headline that opens and closes what is below it; whether that is open.
-  /// \param open  as it begins
-  bool section(const char* title, bool open = true);
+  bool section(const char* title, bool beginsOpen = true);
   bool button(const char* label, const char* tooltip = nullptr);
   bool checkbox(const char* label, bool& value, const char* tooltip = nullptr);
   bool slider(const char* label, float& value, float least, float most, const char* tooltip, bool logarithmic = false);

@@ -63,8 +63,8 @@ TEST(EstimatePositive, IsTheGeometricMeanAndNeverNegative) {
 
 TEST(EstimatePositive, SaysTheSameOfASquareAndItsRoot) {
   const std::array squares{0.2, 0.3, 0.25, 0.6};
-  std::vector<double> roots;
-  for (const double v : squares) roots.push_back(std::sqrt(v));
+  auto roots = squares;
+  for (double& v : roots) v = std::sqrt(v);
   const Estimate e = estimatePositive(squares), r = estimatePositive(roots);
   EXPECT_NEAR(r.value * r.value, e.value, 1e-12);
   EXPECT_NEAR(r.low * r.low, e.low, 1e-12);
@@ -107,8 +107,8 @@ TEST(EstimatePositive, IntervalsCoverForSumsOfSquares) {
   Rng rng(2);
   int held = 0;
   for (int repetition = 0; repetition < 40; ++repetition) {
-    std::vector<double> errors;
-    for (int i = 0; i < 5; ++i) errors.push_back(errorOf(rng));
+    std::array<double, 5> errors;
+    for (double& error : errors) error = errorOf(rng);
     const Estimate e = estimatePositive(errors);
     held += e.low <= std::exp(logarithm) && std::exp(logarithm) <= e.high;
   }

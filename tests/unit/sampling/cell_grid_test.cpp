@@ -6,6 +6,7 @@
 #include "renderer/sampling/inspection.h"
 #include "tests/support/scenes.h"
 
+#include <array>
 #include <chrono>
 #include <future>
 #include <stdexcept>
@@ -123,14 +124,14 @@ TEST(Cut, KeepsTheFirstChoiceOfAFacing) {
 TEST(CellCut, CountsTheMemoryThatItsCutsHold) {
   const Scene scene = stage(LightMix::kAll, 2000, 5);
   const Lights lights(scene);
-  std::vector<Vec3> pilot;
+  std::vector<Vec3> pilot(1000);
   Rng rng(4);
-  for (int i = 0; i < 1000; ++i) pilot.emplace_back(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-2, 2));
+  for (Vec3& p : pilot) p = {rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-2, 2)};
   const CellCutSampler sampler(lights, {.gridResolution = 2}, pilot);
   const std::size_t empty = sampler.bytes();
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 8; ++t) {
-    threads.emplace_back([&] {
+  std::array<std::thread, 8> threads;
+  for (std::thread& thread : threads) {
+    thread = std::thread([&] {
       for (std::size_t i = 0; i < kFacings; ++i) (void)sampler.sample({pilot[i], facing(i).axis}, 0.5);
     });
   }

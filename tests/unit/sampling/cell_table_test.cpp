@@ -25,9 +25,9 @@ CellCoordinates cellAt(std::size_t i) {
 /// Runs a function on several threads at once. They are std::thread's, so that a race detector sees them.
 void onThreads(const std::function<void(int)>& function) {
   std::barrier start(kThreads);
-  std::vector<std::thread> threads;
+  std::array<std::thread, kThreads> threads;
   for (int t = 0; t < kThreads; ++t) {
-    threads.emplace_back([&, t] {
+    threads[static_cast<std::size_t>(t)] = std::thread([&, t] {
       start.arrive_and_wait();
       function(t);
     });

@@ -181,9 +181,8 @@ TEST(CellCut, LampsBesideTheCellAndAllAroundItAreDrawnForEveryFacing) {
   for (int i = 0; i < 2000; ++i) scene.pointLights.push_back({Vec3(50.0 * randomDirection(rng)), Vec3(0.5f)});
   for (const PointLight& light : scene.pointLights) scene.bounds.add(light.position);
   const Lights lights(scene);
-  std::vector<Vec3> pilot;
-  for (int i = 0; i < 1000; ++i)
-    pilot.push_back(8.0f * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)));
+  std::vector<Vec3> pilot(1000);
+  for (Vec3& p : pilot) p = 8.0f * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
   const CellCutSampler sampler(lights, {}, pilot);
   for (int axis = 0; axis < 3; ++axis) {
     for (const float sign : {-1.0f, 1.0f}) {
