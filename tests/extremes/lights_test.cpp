@@ -3,6 +3,7 @@
 #include "renderer/lights/light_tree.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/frozen_render.h"
+#include "tests/support/nightly.h"
 #include "tests/support/probabilities.h"
 #include "tests/support/shading_points.h"
 #include "tests/support/strategies.h"
@@ -199,6 +200,33 @@ TEST(LightTreeOfExtremes, IsNoDeeperThanItsStackWhateverTheArrangement) {
     const LightTree tree(localBounds(Lights(scene), 0), LightId{0}, false);
     EXPECT_EQ(tree.leafCount(), arrangement.positions.size()) << arrangement.name;
     EXPECT_LE(tree.depth(), 96) << arrangement.name;  // light_tree.cpp, kMaxCostDepth
+  }
+}
+
+TEST(TenMillionLights, TakeAtMost120BytesEachAndTheirPmfsSumToOne) {
+  if (!isNightly()) GTEST_SKIP() << "two minutes and 2 GB: ./dev nightly";
+  constexpr std::size_t kCount = 10'000'000;
+  Scene scene;
+  scene.pointLights.reserve(kCount);
+  Rng rng(9);
+  for (std::size_t i = 0; i < kCount; ++i)
+    scene.pointLights.push_back({Vec3(rng.uniform(), rng.uniform(), rng.uniform()), Vec3(rng.uniform(0.01f, 1))});
+  finish(scene);
+  const Lights lights(scene);
+  for (const Strategy strategy : {Strategy::kCellCut, Strategy::kLightTree}) {
+    SCOPED_TRACE(nameOf(strategy));
+    const auto sampler = makeLightSampler(strategy, lights, {}, {});
+    EXPECT_LE(static_cast<double>(lights.bytes() + sampler->bytes()) / kCount, 120);
+    const ShadingPoint point{{0.5f, 0.5f, 1.5f}, {0, 0, -1}};
+    double sum = 0;
+    for (std::size_t i = 0; i < kCount; ++i)
+      sum += static_cast<double>(sampler->pmf(point, static_cast<LightId>(static_cast<std::uint32_t>(i))));
+    EXPECT_NEAR(sum, 1, 1e-6);  // pmfs are floats
+    for (int i = 0; i < 10'000; ++i) {
+      const auto drawn = sampler->sample(point, rng.uniformDouble());
+      ASSERT_TRUE(drawn);
+      ASSERT_EQ(drawn->pmf, sampler->pmf(point, drawn->light));
+    }
   }
 }
 

@@ -41,10 +41,10 @@ void Duel::drive(RenderSession& first, std::uint64_t generation) {
   const auto secondsOf = [](const Snapshot& s) { return s.preview ? 0.0 : s.seconds; };
   if (turn_ && passesOf(turn_->second ? *b : *a) < turn_->passes) return;
   turn_.reset();
-  const double least = std::min(secondsOf(*a), secondsOf(*b));
-  finished_ = timeLimit_ && least >= *timeLimit_;
-  if (finished_) return;
   const bool second = secondsOf(*b) < secondsOf(*a);
+  // The first one may have had more before the duel began.
+  finished_ = timeLimit_ && !second && secondsOf(*a) >= *timeLimit_;
+  if (finished_) return;
   const Snapshot& next = second ? *b : *a;
   const std::uint64_t steps = next.preview ? 1 : stepsOf(next);
   turn_ = Turn{second, passesOf(next) + steps};

@@ -25,7 +25,7 @@ class Duel {
   std::shared_ptr<const Snapshot> second() const { return second_.snapshot(); }
   /// Of the second one's newest edit.
   std::uint64_t generation() const { return generation_; }
-  /// Both have reached the limit on the time.
+  /// Both have reached the limit on the time, and the second one the time of the first.
   bool finished() const { return finished_; }
 
  private:
