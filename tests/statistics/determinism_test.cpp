@@ -52,7 +52,7 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
   };
   const auto [expected, expectedRays] = render(1);
   for (const int threads : {1, 2, 7, 16, 64}) {
-    for (std::size_t run = 0; run < byDepth(2, 5); ++run) {
+    for (std::size_t run = 0; run < sampleShare(byDepth(2, 5)); ++run) {
       const auto [picture, rays] = render(threads);
       std::size_t different = 0;
       for (std::size_t i = 0; i < picture.size(); ++i) {

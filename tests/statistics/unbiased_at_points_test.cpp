@@ -28,7 +28,9 @@ class PointTests {
     ++count_;
   }
   void finish(std::size_t atLeast) const {
-    EXPECT_GE(count_, atLeast) << "points with enough hits";
+    // A sixteenth of the paths need not hit often enough.
+    if (!isSixteenth()) EXPECT_GE(count_, atLeast) << "points with enough hits";
+    if (count_ == 0) return;
     EXPECT_GT(chiSquareTail(sum_, static_cast<double>(count_)), 1e-3) << "sum of squares " << sum_ << " of " << count_;
   }
 
@@ -41,7 +43,7 @@ class PointTests {
 class UnbiasedAtPoints : public StrategyAndLights {
  protected:
   std::vector<Receiver> receivers() const { return randomReceivers(byDepth(4, 64), seed()); }
-  static std::size_t samples() { return byDepth(100'000, 65'536); }
+  static std::size_t samples() { return sampleShare(byDepth(100'000, 65'536)); }
 
   /// Direct light at all receivers of a scene against that of another description of it.
   void expectReferenceOf(const Scene& scene, const Scene& referenceScene,
@@ -129,7 +131,7 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
     const PointEstimator estimator(scene, GetParam().strategy, GetParam().settings);
     PointTests tests(3 * receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
-      const std::size_t samples = byDepth(columns * rows > 100 ? 10'000 : 100'000, 65'536);
+      const std::size_t samples = sampleShare(byDepth(columns * rows > 100 ? 10'000 : 100'000, 65'536));
       tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)),
                 referenceReflected(fine, receivers[i]));
     }

@@ -18,12 +18,16 @@ std::size_t byDepth(std::size_t always, std::size_t atNight) {
   return isNightly() ? atNight : always;
 }
 
-std::size_t sampleShare(std::size_t samples) {
+bool isSixteenth() {
 #ifdef CELLCUT_SANITIZED
-  return std::max<std::size_t>(1, samples / 16);
+  return !wantsAllSamples();
 #else
-  return samples;
+  return false;
 #endif
+}
+
+std::size_t sampleShare(std::size_t samples) {
+  return isSixteenth() ? std::max<std::size_t>(1, samples / 16) : samples;
 }
 
 }  // namespace cellcut::test

@@ -310,8 +310,8 @@ TEST_F(Session, ShowsACoarsePictureFirst) {
 TEST_F(Session, APauseBeforeTheFirstPassIsAnswered) {
   SessionInput slow = endless();
   slow.preview = true;
-  slow.settings.width = slow.settings.height = 300;
-  slow.settings.maxDepth = 1;  // the preview is quick, a pass takes seconds
+  slow.settings.width = slow.settings.height = 100;
+  slow.settings.maxDepth = 1;  // a pass takes seconds, the preview few even of a core that others use
   RenderSession session;
   const std::uint64_t begun = session.edit(slow);
   // Its preview is there, its first pass under way.
