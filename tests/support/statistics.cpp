@@ -1,5 +1,7 @@
 #include "tests/support/statistics.h"
 
+#include "tests/support/depth.h"
+
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,10 @@
 
 namespace cellcut::test {
 namespace {
+
+/// Of that many tests, about. Their seeds were seen to pass with all samples; a sixteenth is another draw of them all, one
+/// of which fails an honest build at the level of a single test.
+constexpr std::size_t kAllComparisons = 1000;
 
 /// Lower regularised gamma function by its series; converges for x < a + 1.
 double gammaSeries(double a, double x) {
@@ -49,7 +55,8 @@ double normalCritical(double alpha) {
 }
 
 double sidak(double alpha, std::size_t comparisons) {
-  return -std::expm1(std::log1p(-alpha) / static_cast<double>(comparisons));
+  const std::size_t all = isSixteenth() ? kAllComparisons * comparisons : comparisons;
+  return -std::expm1(std::log1p(-alpha) / static_cast<double>(all));
 }
 
 double criticalZ(std::size_t comparisons) {
