@@ -1,8 +1,9 @@
 /// \file leaf_sums.h
-/// Running sums of the intensities of a tree's leaves: a choice from any range of them in two look-ups, where a walk down
-/// the tree would wait for memory at each of its levels.
+/// Running sums of the intensities of small subtrees' leaves: a leaf below any of their nodes is chosen by a search in a few
+/// cache lines, where a walk down the nodes would wait for memory at each level.
 ///
-/// The sums are integers, so that the probability that is reported is exactly that of being drawn, from any range.
+/// The sums are integers, so that the probability that is reported is that of being drawn. They are of one subtree each: in
+/// sums over all leaves faint ones beside strong ones of another cluster are lost.
 #pragma once
 
 #include <cstddef>
@@ -20,40 +21,32 @@ struct SampledLeaf {
 
 class LeafSums {
  public:
-  LeafSums() = default;
-  /// \param intensities  finite and > 0, one per leaf. Rounded to 2⁻²⁴ of the sum of the 64 that they are stored with, and
-  ///                     that to 2⁻³⁹ of the sum of all; none becomes 0.
-  explicit LeafSums(std::span<const float> intensities);
+  void reserve(std::size_t leaves) { before_.reserve(leaves); }
+  /// The next leaves, which become a block. \param intensities  finite and > 0; rounded to 2⁻²⁴ of their sum, and none to 0
+  void addBlock(std::span<const float> intensities);
 
-  /// One of the leaves [first, end) in proportion to intensity. \param u  uniform in [0, 1) \pre first < end
+  /// One of the leaves [first, end) in proportion to intensity. \param u  uniform in [0, 1) \pre they are of one block
   SampledLeaf sample(std::uint32_t first, std::uint32_t end, double u) const;
-  /// Its probability. \pre first ≤ leaf < end
+  /// Its probability. \pre first ≤ leaf < end, of one block
   double pmf(std::uint32_t first, std::uint32_t end, std::uint32_t leaf) const;
 
-  std::size_t bytes() const {
-    return blockStarts_.capacity() * sizeof(std::uint64_t) + inBlock_.capacity() * sizeof(Units);
-  }
+  std::size_t bytes() const { return before_.capacity() * sizeof(Sum); }
 
  private:
-  /// Leaves that are stored together.
-  static constexpr std::size_t kBlock = 64;
-  /// What the sum of a block is divided into.
-  static constexpr std::uint32_t kUnits = 1u << 24;
-  /// A number below kUnits. Three bytes, for there is one per light.
-  struct Units {
+  /// Sum of a block.
+  static constexpr std::uint32_t kWhole = 1u << 24;
+  /// Below kWhole. Three bytes, for there is one per light.
+  struct Sum {
     std::uint8_t bytes[3];
-    explicit Units(std::uint32_t n = 0);
+    explicit Sum(std::uint32_t n);
     std::uint32_t get() const { return bytes[0] | bytes[1] << 8 | bytes[2] << 16; }
   };
-  /// Divides kUnits between a block's leaves, at least one to each.
-  static void divide(std::span<const float> intensities, std::span<Units> before);
 
-  std::uint64_t unit(std::size_t block) const { return (blockStarts_[block + 1] - blockStarts_[block]) / kUnits; }
-  /// Sum of the leaves before this one; it may be one past the last.
-  std::uint64_t before(std::uint32_t leaf) const;
+  std::uint32_t before(std::uint32_t leaf) const { return before_[leaf].get(); }
+  /// Sum of the leaves of its block before this one, which may be the first of the next block.
+  std::uint32_t upTo(std::uint32_t leaf) const;
 
-  std::vector<std::uint64_t> blockStarts_;  ///< sums before each block, and of all
-  std::vector<Units> inBlock_;              ///< of the leaves of its block before each
+  std::vector<Sum> before_;  ///< of the leaves of its block before each; 0 for the first of a block only
 };
 
 }  // namespace cellcut

@@ -212,13 +212,59 @@ LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool 
   std::vector<float> intensities;
   intensities.reserve(lights.size());
   for (const BuildLight& light : lights) intensities.push_back(light.intensity);
-  sums_ = LeafSums(intensities);
+  sums_.reserve(intensities.size());
+  addBlocks(root(), intensities);
 
   leaves_.reserve(lights.size());
   for (const BuildLight& light : lights) {
     leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
     leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
   }
+}
+
+void LightTree::addBlocks(NodeId id, std::span<const float> intensities) {
+  if (isInBlock(id)) {
+    sums_.addBlock(intensities.subspan(node(id).firstLeaf(), node(id).leafCount()));
+  } else {
+    addBlocks(left(id), intensities);
+    addBlocks(right(id), intensities);
+  }
+}
+
+LightTree::Shares LightTree::intensityShares(NodeId id) const {
+  const auto l = static_cast<double>(node(left(id)).intensity()), r = static_cast<double>(node(right(id)).intensity());
+  // Not 1 − left: what is 10⁻¹⁷ of its sibling has a probability, too.
+  return {l / (l + r), r / (l + r)};
+}
+
+SampledLeaf LightTree::sampleByIntensity(NodeId id, double u) const {
+  constexpr double kAlmostOne = 1 - 0x1p-53;
+  double pmf = 1;
+  while (!isInBlock(id)) {
+    const auto [toLeft, toRight] = intensityShares(id);
+    if (u < toLeft) {
+      u = std::min(u / toLeft, kAlmostOne);
+      pmf *= toLeft;
+      id = left(id);
+    } else {
+      u = std::min((u - toLeft) / toRight, kAlmostOne);
+      pmf *= toRight;
+      id = right(id);
+    }
+  }
+  const SampledLeaf inBlock = sums_.sample(node(id).firstLeaf(), endOf(id), u);
+  return {inBlock.leaf, pmf * inBlock.pmf};
+}
+
+double LightTree::pmfByIntensity(NodeId id, std::uint32_t leaf) const {
+  double pmf = 1;
+  while (!isInBlock(id)) {
+    const auto [toLeft, toRight] = intensityShares(id);
+    const bool isLeft = leaf < node(right(id)).firstLeaf();
+    pmf *= isLeft ? toLeft : toRight;
+    id = isLeft ? left(id) : right(id);
+  }
+  return pmf * sums_.pmf(node(id).firstLeaf(), endOf(id), leaf);
 }
 
 int LightTree::depth() const {

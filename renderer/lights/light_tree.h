@@ -85,14 +85,29 @@ class LightTree {
   }
   static constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
-  /// For choosing a light by intensity, of the leaves of a node.
-  const LeafSums& sums() const { return sums_; }
+  /// Chooses a leaf of a node with probability proportional to J: child by child down to a block of LeafSums, and not by sums
+  /// over all leaves, in which faint lights beside strong ones are lost.
+  /// \param u  uniform in [0, 1)
+  SampledLeaf sampleByIntensity(NodeId id, double u) const;
+  /// Its probability. \pre the leaf is below the node
+  double pmfByIntensity(NodeId id, std::uint32_t leaf) const;
 
   std::span<const LightTreeNode> nodes() const { return nodes_; }
   int depth() const;
   std::size_t bytes() const;
 
  private:
+  /// Leaves of the largest subtrees that are blocks of sums_: at 10⁶ lights a cluster of a cut has some 1000.
+  static constexpr std::uint32_t kBlock = 256;
+  bool isInBlock(NodeId id) const { return node(id).leafCount() <= kBlock; }
+  std::uint32_t endOf(NodeId id) const { return node(id).firstLeaf() + node(id).leafCount(); }
+  /// J of each child / J of both. \pre not a leaf
+  struct Shares {
+    double left, right;
+  };
+  Shares intensityShares(NodeId id) const;
+  void addBlocks(NodeId id, std::span<const float> intensities);
+
   std::vector<LightTreeNode> nodes_;
   std::vector<LightId> leaves_;  ///< in depth-first order
   std::vector<std::uint32_t> leafOfLight_;

@@ -126,7 +126,7 @@ class CutChoice {
     const std::optional<SampledLeaf> leaf =
         descends(inCluster_, member)
             ? sampleByDescent(tree, member.distant, member.node, NodeImportance{point_.p, point_.n}, u)
-            : tree.sums().sample(first, first + member.leafCount, u);
+            : tree.sampleByIntensity(member.node, u);
     if (!leaf) return std::nullopt;
     return sampledLight(tree.light(leaf->leaf), pmf * leaf->pmf);
   }
@@ -156,10 +156,9 @@ class CutChoice {
     const std::optional<std::size_t> found = cut_.memberOf(leaf + firstLeafOf(distant));
     if (!found) return 0;
     const Cut::Member& member = cut_.members()[*found];
-    const std::uint32_t first = member.firstLeaf - firstLeafOf(distant);
     const double inside = descends(inCluster_, member)
                               ? pmfByDescent(tree, distant, member.node, NodeImportance{point_.p, point_.n}, leaf)
-                              : tree.sums().pmf(first, first + member.leafCount, leaf);
+                              : tree.pmfByIntensity(member.node, leaf);
     return weights_.pmf(cut_, far_, *found) * inside;
   }
 

@@ -29,7 +29,9 @@ class PointTests {
   }
   void finish(std::size_t atLeast) const {
     // A sixteenth of the paths need not hit often enough.
-    if (!isSixteenth()) EXPECT_GE(count_, atLeast) << "points with enough hits";
+    if (!isSixteenth()) {
+      EXPECT_GE(count_, atLeast) << "points with enough hits";
+    }
     if (count_ == 0) return;
     EXPECT_GT(chiSquareTail(sum_, static_cast<double>(count_)), 1e-3) << "sum of squares " << sum_ << " of " << count_;
   }
