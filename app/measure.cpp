@@ -79,7 +79,7 @@ struct Work {
 /// Of a recipe the file is made first, so that what was measured can be looked at and rendered again.
 fs::path sceneFile(const MeasureOptions& options, const MeasureCase& c) {
   if (!c.recipe) return options.scene;
-  const fs::path file = options.folder / "scenes" / (options.scene + "-" + std::to_string(c.lights) + ".glb");
+  fs::path file = options.folder / "scenes" / (options.scene + "-" + std::to_string(c.lights) + ".glb");
   if (!fs::exists(file)) {
     fs::create_directories(file.parent_path());
     writeBytes(file, generateRecipe(*c.recipe, c.lights, 0));
@@ -141,8 +141,8 @@ std::string sizeOf(const ImageRgb& image) {
   return std::to_string(image.width()) + "x" + std::to_string(image.height());
 }
 
-Reference readReference(const fs::path& file, const RenderSettings& settings) {
-  Reference reference{readImage(file), std::numeric_limits<double>::quiet_NaN(), 0, 0, file};
+MeasureReference readReference(const fs::path& file, const RenderSettings& settings) {
+  MeasureReference reference{readImage(file), std::numeric_limits<double>::quiet_NaN(), 0, 0, file};
   if (reference.picture.width() != settings.width || reference.picture.height() != settings.height) {
     throw InputError(file.string(), "is " + sizeOf(reference.picture) + " and --size is " +
                                         std::to_string(settings.width) + "x" + std::to_string(settings.height) +
@@ -151,7 +151,7 @@ Reference readReference(const fs::path& file, const RenderSettings& settings) {
   return reference;
 }
 
-std::optional<Reference> madeReference(Work& work, const Scene& scene, std::size_t index) {
+std::optional<MeasureReference> madeReference(Work& work, const Scene& scene, std::size_t index) {
   const MeasureOptions& o = work.options;
   RenderSettings settings = o.picture.settings;
   settings.maxDepth = work.results.plan.cases[index].maxDepth;
@@ -217,7 +217,7 @@ std::string describe(const MeasureResults& results, std::size_t configuration, i
 bool doRun(Work& work, const Scene& scene, std::size_t configuration, int run) {
   const MeasureOptions& o = work.options;
   const Configuration& c = work.results.plan.configurations[configuration];
-  Reference& reference = *work.results.cases[c.caseIndex].reference;
+  MeasureReference& reference = *work.results.cases[c.caseIndex].reference;
   RenderSettings settings = settingsOf(o, work.results.plan, c);
   settings.camera = findCamera(scene, o.picture.camera);
   settings.seed = o.picture.settings.seed + static_cast<std::uint64_t>(run);

@@ -194,8 +194,8 @@ fs::path cacheFolder(const fs::path& otherwise) {
   return usable ? folder : otherwise;
 }
 
-std::optional<Reference> makeReference(const ReferenceRequest& request, const std::atomic<bool>& cancel,
-                                       const std::function<void(std::uint64_t, double, std::uint64_t)>& onPass) {
+std::optional<MeasureReference> makeReference(const ReferenceRequest& request, const std::atomic<bool>& cancel,
+                                              const std::function<void(std::uint64_t, double, std::uint64_t)>& onPass) {
   RenderSettings settings = request.settings;
   settings.strategy = Strategy::kCellCut;
   settings.sampler = {};
@@ -219,11 +219,11 @@ std::optional<Reference> makeReference(const ReferenceRequest& request, const st
     files.store(batches);
     if (batches.count > found + 1) files.remove(batches.count - 1);
   }
-  return Reference{batches.mean, ownError(batches), batches.count * batchPasses, batches.seconds,
-                   files.pixels(batches.count)};
+  return MeasureReference{batches.mean, ownError(batches), batches.count * batchPasses, batches.seconds,
+                          files.pixels(batches.count)};
 }
 
-void requireFineReference(const Reference& reference, double smallestRelmse) {
+void requireFineReference(const MeasureReference& reference, double smallestRelmse) {
   // NaN: nothing is known of it, which is said where it was read.
   if (!(reference.relmse > kMostReferenceShare * smallestRelmse)) return;
   const double factor = std::ceil(reference.relmse / (kMostReferenceShare * smallestRelmse));

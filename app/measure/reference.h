@@ -19,7 +19,7 @@
 
 namespace cellcut {
 
-struct Reference {
+struct MeasureReference {
   ImageRgb picture;
   double relmse = 0;         ///< estimate of its own error, defined as in `compare`; NaN: not known
   std::uint64_t passes = 0;  ///< samples per pixel; 0: not known
@@ -48,10 +48,10 @@ std::filesystem::path cacheFolder(const std::filesystem::path& otherwise);
 
 /// \param onPass  passes and seconds so far, and the passes that are aimed at
 /// \return nothing when `cancel` became true
-std::optional<Reference> makeReference(const ReferenceRequest& request, const std::atomic<bool>& cancel,
-                                       const std::function<void(std::uint64_t, double, std::uint64_t)>& onPass);
+std::optional<MeasureReference> makeReference(const ReferenceRequest& request, const std::atomic<bool>& cancel,
+                                              const std::function<void(std::uint64_t, double, std::uint64_t)>& onPass);
 
 /// \throws InputError if the error that was measured is less than 1 / kMostReferenceShare times the reference's own
-void requireFineReference(const Reference& reference, double smallestRelmse);
+void requireFineReference(const MeasureReference& reference, double smallestRelmse);
 
 }  // namespace cellcut

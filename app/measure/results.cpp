@@ -197,7 +197,7 @@ void takeOverCase(MeasureResults& results, const Json& json, const std::string& 
   if (!json.contains("reference")) return;
   const Json& r = json.at("reference");
   record.reference =
-      Reference{{}, numberOf(r, "relmse"), r.at("spp"), r.at("seconds"), r.at("file").get<std::string>()};
+      MeasureReference{{}, numberOf(r, "relmse"), r.at("spp"), r.at("seconds"), r.at("file").get<std::string>()};
 }
 
 RunRecord runOf(const MeasurePlan& plan, const Json& json, const std::string& file) {

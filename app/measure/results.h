@@ -29,7 +29,7 @@ struct RunRecord {
 struct CaseRecord {
   std::uint64_t sceneHash = 0;
   LightCounts lights;
-  std::optional<Reference> reference;  ///< `picture` is not kept in the file of results
+  std::optional<MeasureReference> reference;  ///< `picture` is not kept in the file of results
 };
 
 struct MeasureResults {
@@ -49,6 +49,6 @@ nlohmann::ordered_json resultsJson(const MeasureResults& results, const MeasureO
 
 /// Takes over the runs and the references of an earlier file.
 /// \throws InputError if it is none of ours, is damaged, has other settings, or holds runs that the plan does not
-void takeOver(MeasureResults& results, const std::filesystem::path& file);
+void takeOver(MeasureResults& results, const std::filesystem::path& path);
 
 }  // namespace cellcut

@@ -81,7 +81,7 @@ Vec2 GgxAlbedo::operator()(float cosine) const {
   const int column = std::min(static_cast<int>(at), kColumns - 1);
   const auto* row = &theTable().albedo[static_cast<std::size_t>(row_)];
   const auto along = [&](const auto& entries) {
-    return glm::mix(entries[static_cast<std::size_t>(column)], entries[static_cast<std::size_t>(column + 1)],
+    return glm::mix(entries[static_cast<std::size_t>(column)], entries[static_cast<std::size_t>(column) + 1],
                     at - static_cast<float>(column));
   };
   return glm::mix(along(row[0]), along(row[1]), between_);

@@ -273,8 +273,8 @@ TEST_F(MeasureTest, GivenReferenceIsJudgedToo) {
   EXPECT_THAT(outcome.err, HasSubstr("less noise"));
 }
 
-TEST(Reference, IsRefusedAboveATenthOfWhatItJudges) {
-  Reference reference;
+TEST(MeasureReference, IsRefusedAboveATenthOfWhatItJudges) {
+  MeasureReference reference;
   reference.relmse = 1e-4;
   reference.passes = 100;
   EXPECT_NO_THROW(requireFineReference(reference, 1.01e-3));
