@@ -168,6 +168,9 @@ class Builder {
   std::vector<LightTreeNode>& nodes_;
 };
 
+/// Leaves of the largest subtrees that are blocks of LeafSums: at 10⁶ lights a cluster of a cut has some 1000, and is one.
+constexpr std::uint32_t kBlock = 1024;
+
 std::int16_t toSigned16(float x) {
   return static_cast<std::int16_t>(std::lround(x * 32767));
 }
@@ -220,6 +223,10 @@ LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool 
     leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
     leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
   }
+}
+
+bool LightTree::isInBlock(NodeId id) const {
+  return node(id).leafCount() <= kBlock;
 }
 
 void LightTree::addBlocks(NodeId id, std::span<const float> intensities) {

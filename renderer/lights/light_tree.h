@@ -97,9 +97,7 @@ class LightTree {
   std::size_t bytes() const;
 
  private:
-  /// Leaves of the largest subtrees that are blocks of sums_: at 10⁶ lights a cluster of a cut has some 1000.
-  static constexpr std::uint32_t kBlock = 256;
-  bool isInBlock(NodeId id) const { return node(id).leafCount() <= kBlock; }
+  bool isInBlock(NodeId id) const;
   std::uint32_t endOf(NodeId id) const { return node(id).firstLeaf() + node(id).leafCount(); }
   /// J of each child / J of both. \pre not a leaf
   struct Shares {
