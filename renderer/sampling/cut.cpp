@@ -149,6 +149,7 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
   };
   const auto addMember = [&](const Cluster& c) {
     const LightTreeNode& node = nodeOf(c);
+    // The mask says to the compiler that it fits.
     members_.push_back({c.node, c.distant, node.leafCount() & 0x7fffffffu,
                         node.firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
   };
