@@ -244,11 +244,11 @@ void SessionDriver::renderPreview() {
   snapshot->preview = true;
   snapshot->sampler = picture_.sampler().statistics();
   publish(std::move(snapshot));
-  // Twice as fine takes four times as long; another factor of two keeps it from flapping. What is nearly as long as the
+  // Twice as fine takes four times as long; asking for a fifth keeps it from flapping. What is nearly as long as the
   // grace is too slow for a hand.
   const double share = seconds / std::chrono::duration<double>(kPreviewGrace).count();
   if (previewScale_ == firstScale_) {
-    if (8 * share < 1) firstScale_ = std::max(firstScale_ / 2, kPreviewScale);
+    if (5 * share < kSlowShare) firstScale_ = std::max(firstScale_ / 2, kPreviewScale);
     if (share > kSlowShare) firstScale_ = std::min(2 * firstScale_, kCoarsestPreviewScale);
   }
   previewScale_ = previewScale_ > kPreviewScale ? previewScale_ / 2 : 0;
