@@ -25,6 +25,7 @@ void addStatistics(nlohmann::ordered_json& report, const SamplerStatistics& stat
     report["grid"] = {{"resolution", grid->resolution},
                       {"cells", cells},
                       {"touched", grid->touched},
+                      {"touched_coarse", grid->coarse},
                       {"touched_percent", 100 * static_cast<double>(grid->touched) / cells}};
   }
   if (const auto& cut = statistics.cut) {

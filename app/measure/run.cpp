@@ -28,7 +28,7 @@ Checkpoint checkpointOf(const Renderer& renderer, const std::vector<double>& pas
           .flip = error.flip,
           .flipLdr = error.flipLdr,
           .cutSize = statistics.cut ? statistics.cut->mean : 0,
-          .cells = statistics.grid ? statistics.grid->touched : 0,
+          .cells = statistics.grid ? statistics.grid->made() : 0,
           .bytes = renderer.memory().lights};
 }
 

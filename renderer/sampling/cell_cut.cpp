@@ -45,12 +45,12 @@ FarChoice CellCutSampler::makeFarChoice(const Cut& cut, std::size_t facing) cons
 
 template <class Use>
 auto CellCutSampler::withCut(const ShadingPoint& point, const Use& use) const {
-  const std::optional<CellCoordinates> cell = grid_.cellOf(point.p);
+  const std::optional<CellCoordinates> cell = grid_.cellOf(point.p, point.indirect);
   // Past the range of cells every point is a cell of its own.
   const std::size_t facing = facingOf(point.n);
   const auto useOwn = [&](const Cut& own) { return use(own, makeFarChoice(own, facing)); };
   if (!cell) return useOwn(makeCutTimed({point.p, 0}, {settings_.threshold, settings_.maxCut}));
-  const auto makeCell = [&] { return makeCutTimed(grid_.region(*cell), cutSettingsOf(settings_, grid_, *cell)); };
+  const auto makeCell = [&] { return makeCutTimed(grid_.region(*cell), cutSettingsOf(settings_, *cell)); };
   const Cut* cut = cells_.find(*cell);
   if (!cut) cut = cells_.findOrMake(*cell, makeCell);
   if (!cut) return useOwn(makeCell());
@@ -88,14 +88,14 @@ SamplerStatistics CellCutSampler::statistics() const {
   GridStatistics grid{.resolution = {resolution.x, resolution.y, resolution.z}};
   CutStatistics cut{.seconds = static_cast<double>(makeNanoseconds_.load()) * 1e-9};
   std::uint64_t sum = 0;
-  cells_.forEach([&](const CellCoordinates&, const Cut& c) {
-    cut.min = grid.touched == 0 ? c.size() : std::min(cut.min, c.size());
+  cells_.forEach([&](const CellCoordinates& cell, const Cut& c) {
+    cut.min = grid.made() == 0 ? c.size() : std::min(cut.min, c.size());
     cut.max = std::max(cut.max, c.size());
     sum += c.size();
     cut.bytes += c.bytes();
-    ++grid.touched;
+    ++(cell.coarse ? grid.coarse : grid.touched);
   });
-  if (grid.touched > 0) cut.mean = static_cast<double>(sum) / static_cast<double>(grid.touched);
+  if (grid.made() > 0) cut.mean = static_cast<double>(sum) / static_cast<double>(grid.made());
   s.grid = grid;
   s.cut = cut;
   return s;

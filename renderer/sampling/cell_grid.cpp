@@ -17,17 +17,22 @@ constexpr std::size_t kMaxSlots = std::size_t{1} << 22;
 /// Slots looked at before the table counts as full.
 constexpr std::size_t kMaxProbes = 64;
 
-/// 21 bits per axis.
+/// A coarse cell is 2² fine ones wide and has a quarter of the clusters. At depth 5 (16 spp, 320×180) that takes 0.36
+/// (`rooms`) to 0.13 (`street`) less of relMSE × seconds than cells of one kind; half or twice of either is no better.
+constexpr int kCoarseShift = 2;
+constexpr int kFinePerCoarse = 1 << kCoarseShift;
+
+/// 21 bits per axis, and one.
 std::uint64_t keyOf(const CellCoordinates& cell) {
   const auto bits = [](std::int32_t v) { return static_cast<std::uint64_t>(std::int64_t{v} + kCoordinateLimit); };
-  return bits(cell.x) | bits(cell.y) << 21 | bits(cell.z) << 42;
+  return bits(cell.x) | bits(cell.y) << 21 | bits(cell.z) << 42 | std::uint64_t{cell.coarse} << 63;
 }
 
 CellCoordinates cellOfKey(std::uint64_t key) {
   const auto coordinate = [](std::uint64_t bits) {
     return static_cast<std::int32_t>(bits & ((1u << 21) - 1)) - kCoordinateLimit;
   };
-  return {coordinate(key), coordinate(key >> 21), coordinate(key >> 42)};
+  return {coordinate(key), coordinate(key >> 21), coordinate(key >> 42), (key >> 63) != 0};
 }
 
 /// Stands in a slot whose cell did not fit: it was made by nobody and will be by nobody.
@@ -50,40 +55,51 @@ GridGeometry::GridGeometry(const Bounds& box, int resolution) {
     // The cells are centred on the box: a flat axis lies in the middle of one cell and not on a border.
     origin_[i] = 0.5 * (lower[i] + upper[i]) - 0.5 * size_ * resolution_[i];
   }
+  margin_ = std::max({resolution_.x, resolution_.y, resolution_.z}) / 4;
 }
 
-std::optional<CellCoordinates> GridGeometry::cellOf(const Vec3& p) const {
+std::optional<CellCoordinates> GridGeometry::cellOf(const Vec3& p, bool indirect) const {
   const glm::dvec3 c = (glm::dvec3(p) - origin_) * inverseSize_;
   constexpr double limit = kCoordinateLimit;
   if (!(std::abs(c.x) < limit && std::abs(c.y) < limit && std::abs(c.z) < limit)) return std::nullopt;
-  return CellCoordinates{static_cast<std::int32_t>(std::floor(c.x)), static_cast<std::int32_t>(std::floor(c.y)),
-                         static_cast<std::int32_t>(std::floor(c.z))};
+  const CellCoordinates fine{static_cast<std::int32_t>(std::floor(c.x)), static_cast<std::int32_t>(std::floor(c.y)),
+                             static_cast<std::int32_t>(std::floor(c.z))};
+  if (!indirect && !isRemote(fine)) return fine;
+  return CellCoordinates{fine.x >> kCoarseShift, fine.y >> kCoarseShift, fine.z >> kCoarseShift, true};
+}
+
+double GridGeometry::sizeOf(const CellCoordinates& cell) const {
+  return cell.coarse ? kFinePerCoarse * size_ : size_;
+}
+
+/// The lower corner at step 0, the upper one at 1.
+glm::dvec3 GridGeometry::corner(const CellCoordinates& cell, double step) const {
+  return origin_ + (glm::dvec3(cell.x, cell.y, cell.z) + step) * sizeOf(cell);
 }
 
 Region GridGeometry::region(const CellCoordinates& cell) const {
-  const glm::dvec3 centre = origin_ + (glm::dvec3(cell.x, cell.y, cell.z) + 0.5) * size_;
+  const glm::dvec3 centre = corner(cell, 0.5);
   // The rounding of the centre is bounded and not measured: GCC 12 takes the difference of a double and its float, both
   // in one vector, to be 0.
   const double rounding = static_cast<double>(gammaBound(1)) * glm::length(centre);
-  return {Vec3(centre), static_cast<float>(0.5 * std::sqrt(3.0) * size_ + rounding) * (1 + gammaBound(4))};
+  return {Vec3(centre), static_cast<float>(0.5 * std::sqrt(3.0) * sizeOf(cell) + rounding) * (1 + gammaBound(4))};
 }
 
 Bounds GridGeometry::box(const CellCoordinates& cell) const {
-  const auto corner = [&](int step) {
-    return Vec3(origin_ + (glm::dvec3(cell.x, cell.y, cell.z) + static_cast<double>(step)) * size_);
-  };
-  return {corner(0), corner(1)};
+  return {Vec3(corner(cell, 0)), Vec3(corner(cell, 1))};
 }
 
 bool GridGeometry::isRemote(const CellCoordinates& cell) const {
-  const int margin = std::max({resolution_.x, resolution_.y, resolution_.z}) / 4;
-  const auto outside = [&](int at, int cells) { return at < -margin || at >= cells + margin; };
-  return outside(cell.x, resolution_.x) || outside(cell.y, resolution_.y) || outside(cell.z, resolution_.z);
+  const int width = cell.coarse ? kFinePerCoarse : 1;
+  for (int i = 0; i < 3; ++i) {
+    const int at = width * (i == 0 ? cell.x : i == 1 ? cell.y : cell.z);
+    if (at < -margin_ || at + width > resolution_[i] + margin_) return true;
+  }
+  return false;
 }
 
-CutSettings cutSettingsOf(const SamplerSettings& settings, const GridGeometry& grid, const CellCoordinates& cell) {
-  const int most = grid.isRemote(cell) ? std::max(2, settings.maxCut / 8) : settings.maxCut;
-  return {settings.threshold, most};
+CutSettings cutSettingsOf(const SamplerSettings& settings, const CellCoordinates& cell) {
+  return {settings.threshold, cell.coarse ? std::max(2, settings.maxCut / kFinePerCoarse) : settings.maxCut};
 }
 
 Bounds centralBox(std::span<const Vec3> points) {

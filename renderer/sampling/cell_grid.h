@@ -2,7 +2,9 @@
 /// The regular grid of cubic cells, and a table of what was made of the cells that were touched.
 ///
 /// Cells are addressed by integer coordinates and hashed, so that only touched cells take memory and space has no
-/// border. The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
+/// border. Later vertices of paths, and points far from what is seen, have coarse cells: paths scatter into many cells, each
+/// of which is asked seldom, so that fine ones would cost more time in the making and in missed caches than they save noise.
+/// The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
 /// no global lock. What is made is never changed.
 #pragma once
 
@@ -18,7 +20,8 @@
 namespace cellcut {
 
 struct CellCoordinates {
-  std::int32_t x, y, z;
+  std::int32_t x, y, z;  ///< in cells of its size
+  bool coarse = false;
   bool operator==(const CellCoordinates&) const = default;
 };
 
@@ -29,29 +32,33 @@ class GridGeometry {
   /// \param resolution  cells along its longest axis, ≥ 1
   GridGeometry(const Bounds& box, int resolution);
 
-  /// Nothing for points beyond 2²⁰ cells from the box on any axis, and for points that are not finite.
-  std::optional<CellCoordinates> cellOf(const Vec3& p) const;
+  /// The cell that a light for `p` is chosen from, coarse for indirect and for remote points. Nothing for points beyond 2²⁰
+  /// cells from the box on any axis, and for points that are not finite.
+  std::optional<CellCoordinates> cellOf(const Vec3& p, bool indirect = false) const;
   /// A sphere around all float points of a cell, rounding included.
   Region region(const CellCoordinates& cell) const;
   /// The cube itself, its corners rounded to floats. Neighbours share their corners exactly.
   Bounds box(const CellCoordinates& cell) const;
-  /// Whether a cell lies farther from the box than a quarter of its longest axis: bounces of light reach many such
-  /// cells, and each seldom.
+  /// Whether a cell has points farther from the box than a quarter of its longest axis: no fine cell lies there.
   bool isRemote(const CellCoordinates& cell) const;
+  /// Of the fine cells, metres.
   double cellSize() const { return size_; }
-  /// Cells that cover the box, per axis.
+  /// Fine cells that cover the box, per axis.
   glm::ivec3 resolution() const { return resolution_; }
 
  private:
+  double sizeOf(const CellCoordinates& cell) const;
+  glm::dvec3 corner(const CellCoordinates& cell, double step) const;
+
   glm::dvec3 origin_;
   double size_;
   double inverseSize_;
   glm::ivec3 resolution_;
+  int margin_;  ///< cells around the box that are not remote
 };
 
-/// What the cut of a cell is found with. A remote cell gets an eighth of the clusters: in a building that is seen from one
-/// of its rooms, light bounces through ten times as many cells as are seen, and their cuts are what fills the memory.
-CutSettings cutSettingsOf(const SamplerSettings& settings, const GridGeometry& grid, const CellCoordinates& cell);
+/// What the cut of a cell is found with: a coarse cell gets a quarter of the clusters.
+CutSettings cutSettingsOf(const SamplerSettings& settings, const CellCoordinates& cell);
 
 /// Corners of the middle of a cloud of points: per axis from its 5 % to its 95 % quantile, so that the horizon seen
 /// from a house does not stretch the house's cells. Empty for no points.

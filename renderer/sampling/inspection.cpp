@@ -22,8 +22,8 @@ const LightTree& CutInspector::tree(bool distant) const {
   return distant ? strategy_.trees->distant : strategy_.trees->local;
 }
 
-std::optional<CellCoordinates> CutInspector::cellOf(const Vec3& p) const {
-  return strategy_.grid ? strategy_.grid->cellOf(p) : std::nullopt;
+std::optional<CellCoordinates> CutInspector::cellOf(const Vec3& p, bool indirect) const {
+  return strategy_.grid ? strategy_.grid->cellOf(p, indirect) : std::nullopt;
 }
 
 const Cut* CutInspector::find(const CellCoordinates& cell) const {
@@ -31,8 +31,7 @@ const Cut* CutInspector::find(const CellCoordinates& cell) const {
 }
 
 Cut CutInspector::cutFor(const CellCoordinates& cell) const {
-  return makeCut(*strategy_.trees, strategy_.grid->region(cell),
-                 cutSettingsOf(strategy_.settings, *strategy_.grid, cell));
+  return makeCut(*strategy_.trees, strategy_.grid->region(cell), cutSettingsOf(strategy_.settings, cell));
 }
 
 Cut CutInspector::cutFor(const Vec3& p) const {
@@ -92,7 +91,7 @@ std::vector<ClusterInspection> CutInspector::clusters(const Cut& cut, const Shad
 
 CutInspection CutInspector::inspect(const ShadingPoint& point) const {
   CutInspection result;
-  result.cell = cellOf(point.p);
+  result.cell = cellOf(point.p, point.indirect);
   if (!result.cell) {
     result.clusters = clusters(cutFor(point.p), point);
     return result;

@@ -52,8 +52,8 @@ class CutInspector {
 
   /// The grid of cells; null where every point has a cut of its own.
   const GridGeometry* grid() const { return strategy_.grid; }
-  /// Nothing without a grid or past its range.
-  std::optional<CellCoordinates> cellOf(const Vec3& p) const;
+  /// GridGeometry::cellOf(); nothing without a grid.
+  std::optional<CellCoordinates> cellOf(const Vec3& p, bool indirect = false) const;
   /// The cell's cut if a path touched it and it was kept.
   const Cut* find(const CellCoordinates& cell) const;
   /// Every cell that was touched and kept, in no order.

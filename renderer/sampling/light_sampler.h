@@ -29,6 +29,7 @@ struct ShadingPoint {
   Vec3 p;             ///< metres
   Vec3 n;             ///< unit shading normal, on the side of the outgoing direction; only directions above it matter
   GlossyLobe lobe{};  ///< as far as LightSampler::usesLobe()
+  bool indirect = false;  ///< a later vertex of a path than the first
 };
 
 struct SampledLight {

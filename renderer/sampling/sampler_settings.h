@@ -63,8 +63,10 @@ inline constexpr int kMaxCutSize = 4096;
 inline constexpr int kMaxGridResolution = 1024;
 
 struct GridStatistics {
-  std::array<int, 3> resolution{};  ///< cells that cover the pilot's box
-  std::size_t touched = 0;          ///< cells that were made, inside the box or outside
+  std::array<int, 3> resolution{};  ///< fine cells that cover the pilot's box
+  std::size_t touched = 0;          ///< fine cells that were made, inside the box or outside
+  std::size_t coarse = 0;           ///< coarse cells that were made: of later path vertices and of remote points
+  std::size_t made() const { return touched + coarse; }
 };
 struct CutStatistics {
   std::size_t min = 0, max = 0;  ///< clusters

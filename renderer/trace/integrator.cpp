@@ -29,8 +29,9 @@ struct Vertex {
   Vec3 wo;      ///< in the frame
   Bsdf bsdf;
   GlossyLobe lobe;
+  bool indirect;
 
-  ShadingPoint shadingPoint() const { return {surface.p, frame.z, lobe}; }
+  ShadingPoint shadingPoint() const { return {surface.p, frame.z, lobe, indirect}; }
   /// Cosine-weighted BSDF towards a world direction with the density that sampleBsdf has for it; 0 through the surface.
   Bsdf::Value scattering(const Vec3& direction) const {
     if (!(glm::dot(direction, normal) > 0)) return {};
@@ -42,11 +43,12 @@ struct Vertex {
 };
 
 /// \param outgoing  unit, world space, away from the surface
-Vertex makeVertex(const PathContext& context, const SurfacePoint& surface, const Vec3& outgoing) {
+/// \param indirect  not the first of its path
+Vertex makeVertex(const PathContext& context, const SurfacePoint& surface, const Vec3& outgoing, bool indirect) {
   const Scene& scene = context.scene;
   const Vec3 normal = glm::dot(surface.normal, outgoing) < 0 ? -surface.normal : surface.normal;
   const Frame frame(shadingNormalTowards(scene, surface.at, normal, outgoing));
-  Vertex vertex{surface, normal, frame, frame.toLocal(outgoing), bsdfAt(scene, surface.at), {}};
+  Vertex vertex{surface, normal, frame, frame.toLocal(outgoing), bsdfAt(scene, surface.at), {}, indirect};
   if (context.sampler.usesLobe()) vertex.lobe = lobeOf(vertex.bsdf, frame, outgoing);
   return vertex;
 }
@@ -81,7 +83,7 @@ class Path {
       addEmission(surface, material, *hit, ray.direction);
       if (last) break;
 
-      const Vertex vertex = makeVertex(context_, surface, -ray.direction);
+      const Vertex vertex = makeVertex(context_, surface, -ray.direction, depth > 0);
       if (depth == 0 && context_.auxiliary) result_.normal = vertex.frame.z;
       addDirectLight(vertex);
       if (depth + 1 == context_.maxDepth && !context_.bounceCanFind) break;

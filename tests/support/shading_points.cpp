@@ -28,7 +28,7 @@ std::optional<Arrival> vertexAfter(const Scene& scene, const Accel& accel, std::
     const Vec3 normal = glm::dot(triangle.normal, ray.direction) < 0 ? triangle.normal : -triangle.normal;
     const Vec3 p = ray.origin + hit->t * ray.direction;
     const Vec3 shading = shadingNormal(scene, {&mesh, hit->triangle, hit->barycentric}, normal);
-    if (depth == bounces) return Arrival{{p, shading}, -ray.direction};
+    if (depth == bounces) return Arrival{{p, shading, {}, depth > 0}, -ray.direction};
     const Vec3 direction = Frame(normal).toWorld(cosineHemisphere({rng.uniform(), rng.uniform()}));
     ray = {offsetRayOrigin(p, triangleError(triangle.corners[0], triangle.corners[1], triangle.corners[2]), normal,
                            direction),

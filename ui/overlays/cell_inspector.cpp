@@ -70,7 +70,10 @@ Json cutToJson(const PixelReport& report) {
            {"visits", report.visits},   {"size", report.clusters.size()},      {"unoccluded", report.unoccluded},
            {"visible", report.visible}, {"distance", orNull(report.distance)}, {"mirrored", report.mirrored},
            {"clusters", Json::array()}};
-  if (report.cell) cut["cell"] = {report.cell->x, report.cell->y, report.cell->z};
+  if (report.cell) {
+    cut["cell"] = {report.cell->x, report.cell->y, report.cell->z};
+    cut["coarse"] = report.cell->coarse;
+  }
   for (const ClusterRow& row : report.clusters) cut["clusters"].push_back(toJson(row));
   return cut;
 }

@@ -19,7 +19,7 @@ float cellId(const CutInspector& inspector, const FirstHit& hit) {
   if (!hit.hit()) return -1;
   const std::optional<CellCoordinates> cell = inspector.cellOf(hit.point.p);
   const glm::ivec3 size = inspector.grid()->resolution();
-  if (!cell || cell->x < 0 || cell->y < 0 || cell->z < 0) return -1;
+  if (!cell || cell->coarse || cell->x < 0 || cell->y < 0 || cell->z < 0) return -1;
   if (cell->x >= size.x || cell->y >= size.y || cell->z >= size.z) return -1;
   return static_cast<float>(cell->x + size.x * (cell->y + size.y * cell->z));
 }

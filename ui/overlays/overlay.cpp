@@ -48,7 +48,7 @@ class CellValues {
 
  private:
   float ofUntouched(const CellCoordinates& cell) {
-    const auto [found, isNew] = untouched_.try_emplace({cell.x, cell.y, cell.z}, kNoValue);
+    const auto [found, isNew] = untouched_.try_emplace({cell.x, cell.y, cell.z, cell.coarse}, kNoValue);
     if (isNew) found->second = valueOf(overlay_, inspector_.summaryOfCell(cell));
     return found->second;
   }
@@ -62,7 +62,7 @@ class CellValues {
   const CutInspector& inspector_;
   bool everyCell_;
   std::unordered_map<const Cut*, float> values_;
-  std::map<std::array<std::int32_t, 3>, float> untouched_;
+  std::map<std::array<std::int32_t, 4>, float> untouched_;
 };
 
 std::optional<Image<float>> cellOverlay(Overlay overlay, const OverlayInputs& inputs, Image<float> values,
@@ -172,6 +172,7 @@ std::optional<TouchedCells> touchedCells(const LightSampler& sampler) {
   touched.all = static_cast<std::size_t>(resolution.x) * static_cast<std::size_t>(resolution.y) *
                 static_cast<std::size_t>(resolution.z);
   inspector->forEachCell([&](const CellCoordinates& c, const Cut&) {
+    if (c.coarse) return;
     const bool inside =
         c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < resolution.x && c.y < resolution.y && c.z < resolution.z;
     ++(inside ? touched.inside : touched.outside);

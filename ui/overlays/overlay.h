@@ -43,7 +43,7 @@ struct OverlayName {
 inline constexpr std::array kOverlays{
     OverlayName{Overlay::kNone, "none", "no overlay", "", false, "the picture alone"},
     OverlayName{Overlay::kTouched, "touched", "cells touched", "", true,
-                "cells whose cut was made, by any path vertex"},
+                "cells whose cut was made, those of bounces left out"},
     OverlayName{Overlay::kVisits, "visits", "visits per cell", "", true, "lights asked for from the cell's cut"},
     OverlayName{Overlay::kCutSize, "cut-size", "cut size", "clusters", true, "clusters that one light is chosen from"},
     OverlayName{Overlay::kEstimate, "estimate", "estimate of the cut", "W/m²", false,
@@ -98,7 +98,7 @@ struct OverlayStatistics {
 };
 OverlayStatistics statisticsOf(const Image<float>& values);
 
-/// Cells whose cut was made, by any path vertex.
+/// Fine cells whose cut was made.
 struct TouchedCells {
   std::size_t inside = 0;   ///< in the box that the grid covers
   std::size_t outside = 0;  ///< beyond it

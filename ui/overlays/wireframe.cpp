@@ -122,16 +122,19 @@ class Canvas {
 struct GridEdge {
   CellCoordinates corner;
   int axis;
-  auto key() const { return std::tuple(corner.x, corner.y, corner.z, axis); }
+  auto key() const { return std::tuple(corner.x, corner.y, corner.z, corner.coarse, axis); }
 };
 
 std::vector<GridEdge> edgesOf(const CutInspector& inspector) {
   std::vector<GridEdge> edges;
   inspector.forEachCell([&](const CellCoordinates& cell, const Cut&) {
+    // Coarse cells among the fine ones are those of bounces.
+    if (cell.coarse && !inspector.grid()->isRemote(cell)) return;
     for (int corner = 0; corner < 8; ++corner) {
       for (int axis = 0; axis < 3; ++axis) {
         if ((corner >> axis & 1) != 0) continue;
-        edges.push_back({{cell.x + (corner & 1), cell.y + (corner >> 1 & 1), cell.z + (corner >> 2 & 1)}, axis});
+        edges.push_back(
+            {{cell.x + (corner & 1), cell.y + (corner >> 1 & 1), cell.z + (corner >> 2 & 1), cell.coarse}, axis});
       }
     }
   });

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kRows = 100;
 
 std::string cellText(const CellCoordinates& cell) {
-  return std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " + std::to_string(cell.z);
+  return std::to_string(cell.x) + ", " + std::to_string(cell.y) + ", " + std::to_string(cell.z) +
+         (cell.coarse ? " (coarse)" : "");
 }
 
 /// Indices of the rows that are shown: the largest of probability and share first. `wanted` is among them.

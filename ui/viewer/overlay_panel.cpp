@@ -13,7 +13,7 @@ void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& s
     const TouchedCells& t = *facts.overlay->touched;
     widgets.text("Cells touched",
                  formatted("%zu of %zu (%.1f %%), %zu beyond", t.inside, t.all, 100 * t.share(), t.outside),
-                 "By any path vertex; of the cells that cover what the pilot paths saw");
+                 "By what the camera sees; of the cells that cover what the pilot paths saw");
   }
   if (state.settings.strategy == Strategy::kCellCut) {
     static constexpr std::array<std::string_view, 4> kAxes{"no slice", "across x", "across y", "across z"};

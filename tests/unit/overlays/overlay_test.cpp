@@ -13,7 +13,7 @@ namespace cellcut::test {
 namespace {
 
 const std::atomic<bool> kNever{false};
-using Cell = std::tuple<int, int, int>;
+using Cell = std::tuple<int, int, int, bool>;
 
 /// An overlay and everything about the rendering that it is counted again from.
 class OverlayRecount : public testing::Test {
@@ -34,9 +34,9 @@ class OverlayRecount : public testing::Test {
     if (!hit) return std::nullopt;
     return surfaceAt(scene, *hit).p;
   }
-  Cell cellOf(const Vec3& p) const {
-    const CellCoordinates c = *grid.cellOf(p);
-    return {c.x, c.y, c.z};
+  Cell cellOf(const Vec3& p, bool indirect = false) const {
+    const CellCoordinates c = *grid.cellOf(p, indirect);
+    return {c.x, c.y, c.z, c.coarse};
   }
   /// Calls `check(value of the overlay, hit point, cell)` at every pixel with a hit; all others must have no value.
   template <class Check>
@@ -68,7 +68,7 @@ class OverlayRecount : public testing::Test {
 
 TEST_F(OverlayRecount, VisitsAreTheVerticesThatAskedInTheCell) {
   std::map<Cell, std::size_t> visits;
-  for (const ShadingPoint& vertex : run.vertices) ++visits[cellOf(vertex.p)];
+  for (const ShadingPoint& vertex : run.vertices) ++visits[cellOf(vertex.p, vertex.indirect)];
   std::size_t most = 0;
   forEachHit(Overlay::kVisits, [&](float value, const Vec3&, const Cell& cell) {
     EXPECT_EQ(value, static_cast<float>(visits[cell]));
@@ -77,9 +77,9 @@ TEST_F(OverlayRecount, VisitsAreTheVerticesThatAskedInTheCell) {
   EXPECT_GT(most, 20u);
 }
 
-TEST_F(OverlayRecount, TouchedCellsAreThoseOfAnyVertex) {
+TEST_F(OverlayRecount, TouchedCellsAreThoseOfTheVerticesThatAskInThem) {
   std::map<Cell, bool> touched;
-  for (const ShadingPoint& vertex : run.vertices) touched[cellOf(vertex.p)] = true;
+  for (const ShadingPoint& vertex : run.vertices) touched[cellOf(vertex.p, vertex.indirect)] = true;
   std::size_t untouched = 0;
   forEachHit(Overlay::kTouched, [&](float value, const Vec3&, const Cell& cell) {
     EXPECT_EQ(value, touched.contains(cell) ? 1.0f : 0.0f);
@@ -87,15 +87,18 @@ TEST_F(OverlayRecount, TouchedCellsAreThoseOfAnyVertex) {
   });
 
   const glm::ivec3 r = grid.resolution();
-  std::size_t inside = 0;
+  std::size_t inside = 0, fine = 0;
   for (const auto& [cell, yes] : touched) {
-    const auto [x, y, z] = cell;
+    const auto [x, y, z, coarse] = cell;
+    if (coarse) continue;
+    ++fine;
     inside += x >= 0 && x < r.x && y >= 0 && y < r.y && z >= 0 && z < r.z ? 1 : 0;
   }
   const std::optional<TouchedCells> counted = touchedCells(*run.sampler);
   ASSERT_TRUE(counted);
   EXPECT_EQ(counted->inside, inside);
-  EXPECT_EQ(counted->inside + counted->outside, touched.size());
+  EXPECT_EQ(counted->inside + counted->outside, fine);
+  EXPECT_LT(fine, touched.size());
   EXPECT_EQ(counted->all, static_cast<std::size_t>(r.x * r.y * r.z));
   EXPECT_EQ(counted->share(), static_cast<double>(inside) / static_cast<double>(counted->all));
 }
@@ -120,11 +123,12 @@ TEST_F(OverlayRecount, CutsAreThoseOfTheCells) {
   };
   std::map<Cell, Found> cuts;
   const auto cutOf = [&](const Cell& cell) {
-    const auto [x, y, z] = cell;
+    const auto [x, y, z, coarse] = cell;
     const auto found = cuts.find(cell);
     if (found != cuts.end()) return found->second;
     std::vector<Cluster> clusters;
-    findCut(trees, grid.region({x, y, z}), {run.settings.sampler.threshold, run.settings.sampler.maxCut}, clusters);
+    const CellCoordinates at{x, y, z, coarse};
+    findCut(trees, grid.region(at), cutSettingsOf(run.settings.sampler, at), clusters);
     Found cut{clusters.size(), 0};
     for (const Cluster& c : clusters) {
       cut.estimate += static_cast<double>(c.estimate);

@@ -27,26 +27,29 @@ double distance(const Vec3& a, const Vec3& b) {
   return std::sqrt(sum);
 }
 
-// Cells of 3.8 floats: of four in a row the farthest is 2 floats from the rounded centre, and half of the cell is 1.9.
-TEST(GridGeometry, CellsFarFromWhatIsSeenAreRemoteAndHaveSmallCuts) {
+TEST(GridGeometry, IndirectAndRemotePointsHaveCoarseCells) {
   Bounds box;
   box.lower = Vec3(0);
   box.upper = Vec3(16, 8, 8);
   const GridGeometry grid(box, 16);
-  const SamplerSettings settings{.maxCut = 1024};
+  const auto coarse = [&](const Vec3& p) { return grid.cellOf(p)->coarse; };
   // Up to a quarter of the longest axis outside of the box on any axis.
-  for (const CellCoordinates& near :
-       {CellCoordinates{0, 0, 0}, CellCoordinates{-4, 3, 3}, CellCoordinates{19, 11, -4}}) {
-    EXPECT_FALSE(grid.isRemote(near));
-    EXPECT_EQ(cutSettingsOf(settings, grid, near).maxSize, 1024);
-  }
-  for (const CellCoordinates& far : {CellCoordinates{-5, 3, 3}, CellCoordinates{20, 3, 3}, CellCoordinates{3, 12, 3}}) {
-    EXPECT_TRUE(grid.isRemote(far));
-    EXPECT_EQ(cutSettingsOf(settings, grid, far).maxSize, 128);
-  }
-  EXPECT_EQ(cutSettingsOf({.maxCut = 2}, grid, {100, 0, 0}).maxSize, 2);
+  for (const Vec3& near : {Vec3(0.5f), Vec3(-3.9f, 3, 3), Vec3(19.9f, 11.9f, -3.9f)}) EXPECT_FALSE(coarse(near));
+  for (const Vec3& far : {Vec3(-4.1f, 3, 3), Vec3(20.1f, 3, 3), Vec3(3, 12.1f, 3), Vec3(3, 3, -4.1f)})
+    EXPECT_TRUE(coarse(far));
+  EXPECT_EQ(*grid.cellOf(Vec3(-0.5f, 3.5f, 4.5f), true), (CellCoordinates{-1, 0, 1, true}));
+  EXPECT_EQ(grid.box({-1, 0, 1, true}).upper - grid.box({-1, 0, 1, true}).lower, Vec3(4));
+  // A coarse cell is remote as soon as a part of it is.
+  EXPECT_FALSE(grid.isRemote({4, 2, -1, true}));
+  EXPECT_TRUE(grid.isRemote({5, 2, -1, true}));
+  EXPECT_TRUE(grid.isRemote({4, 2, -2, true}));
+
+  EXPECT_EQ(cutSettingsOf({.maxCut = 1024}, {0, 0, 0}).maxSize, 1024);
+  EXPECT_EQ(cutSettingsOf({.maxCut = 1024}, {0, 0, 0, true}).maxSize, 256);
+  EXPECT_EQ(cutSettingsOf({.maxCut = 2}, {0, 0, 0, true}).maxSize, 2);
 }
 
+// Cells of 3.8 floats: of four in a row the farthest is 2 floats from the rounded centre, and half of the cell is 1.9.
 TEST(GridGeometry, CellsHoldTheirPointsWhereFloatsAreCoarse) {
   Bounds box;
   box.add(Vec3(5000.013f, 5000.011f, 5000.017f));

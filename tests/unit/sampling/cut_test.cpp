@@ -245,8 +245,8 @@ TEST(CellCut, PictureIsTheSameWithoutMemoryForCells) {
   settings.sampler.cellMemory = 0;
   Renderer forgotten(scene, settings);
   for (Renderer* renderer : {&kept, &forgotten}) renderer->renderPass(never);
-  EXPECT_GT(kept.samplerStatistics().grid->touched, 0u);
-  EXPECT_EQ(forgotten.samplerStatistics().grid->touched, 0u);
+  EXPECT_GT(kept.samplerStatistics().grid->made(), 0u);
+  EXPECT_EQ(forgotten.samplerStatistics().grid->made(), 0u);
   const ImageRgb a = kept.film().mean(), b = forgotten.film().mean();
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i], b[i]);
 }
@@ -260,10 +260,12 @@ TEST(GridGeometry, CellsHoldTheirPointsAndFlatBoxesAreOneCellThick) {
   Rng rng(2);
   for (int i = 0; i < 10'000; ++i) {
     const Vec3 p(rng.uniform(-100, 100), rng.uniform(-100, 100), rng.uniform(-100, 100));
-    const auto cell = grid.cellOf(p);
-    ASSERT_TRUE(cell);
-    const Region region = grid.region(*cell);
-    EXPECT_LE(glm::length(glm::dvec3(p) - glm::dvec3(region.centre)), static_cast<double>(region.radius));
+    for (const bool indirect : {false, true}) {
+      const auto cell = grid.cellOf(p, indirect);
+      ASSERT_TRUE(cell);
+      const Region region = grid.region(*cell);
+      EXPECT_LE(glm::length(glm::dvec3(p) - glm::dvec3(region.centre)), static_cast<double>(region.radius));
+    }
   }
   EXPECT_FALSE(grid.cellOf(Vec3(1e30f, 0, 0)));
   EXPECT_FALSE(grid.cellOf(Vec3(std::numeric_limits<float>::quiet_NaN())));

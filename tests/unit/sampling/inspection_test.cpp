@@ -219,10 +219,13 @@ TEST(GridGeometry, BoxesHoldTheirPointsAndShareCorners) {
   box.add(Vec3(5, 2, 4));
   const GridGeometry grid(box, 7);
   const Vec3 p(0.3f, 1.2f, 3.9f);
-  const CellCoordinates cell = *grid.cellOf(p);
-  const Bounds b = grid.box(cell);
-  EXPECT_EQ(glm::clamp(p, b.lower, b.upper), p);
-  EXPECT_EQ(grid.box({cell.x + 1, cell.y + 1, cell.z + 1}).lower, b.upper);
+  for (const bool indirect : {false, true}) {
+    const CellCoordinates cell = *grid.cellOf(p, indirect);
+    EXPECT_EQ(cell.coarse, indirect);
+    const Bounds b = grid.box(cell);
+    EXPECT_EQ(glm::clamp(p, b.lower, b.upper), p);
+    EXPECT_EQ(grid.box({cell.x + 1, cell.y + 1, cell.z + 1, cell.coarse}).lower, b.upper);
+  }
 }
 
 }  // namespace

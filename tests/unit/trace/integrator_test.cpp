@@ -11,7 +11,7 @@ namespace {
 
 bool same(const ShadingPoint& a, const ShadingPoint& b) {
   return a.p == b.p && a.n == b.n && a.lobe.wo == b.lobe.wo && a.lobe.alpha == b.lobe.alpha &&
-         a.lobe.share == b.lobe.share;
+         a.lobe.share == b.lobe.share && a.indirect == b.indirect;
 }
 
 /// Passes every question on and holds the integrator to its promise: the probability of a light that a bounce met is
