@@ -138,7 +138,8 @@ class Builder {
       }
       bounds = merge(a, b);
     }
-    nodes_[node] = LightTreeNode(bounds, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count));
+    nodes_[node] =
+        LightTreeNode(bounds, static_cast<std::uint32_t>(node - 2 * first), static_cast<std::uint32_t>(count));
     return bounds;
   }
 
@@ -175,9 +176,9 @@ std::int16_t toSigned16(float x) {
   return static_cast<std::int16_t>(std::lround(x * 32767));
 }
 
-/// sin(θ/2), rounded up to a multiple of 1/65535.
-std::uint16_t sinHalf16(float theta) {
-  return static_cast<std::uint16_t>(std::min(65535.0f, std::ceil(std::sin(0.5f * std::min(kPi, theta)) * 65535)));
+/// sin(θ/2) in units of 1/steps, rounded up.
+std::uint16_t sinHalf(float theta, float steps) {
+  return static_cast<std::uint16_t>(std::min(steps, std::ceil(std::sin(0.5f * std::min(kPi, theta)) * steps)));
 }
 
 /// Largest angle between an axis and its 2 × 16-bit code: half a step in the octahedron's plane, stretched by at most
@@ -186,15 +187,15 @@ constexpr float kAxisError = 4e-5f * 2;
 
 }  // namespace
 
-LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf, std::uint32_t leafCount)
+LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t leftTurns, std::uint32_t leafCount)
     : lower_(bounds.box.lower),
       upper_(bounds.box.upper),
       intensity_(bounds.intensity),
       axisX_(toSigned16(octahedral(bounds.axes.axis).x)),
       axisY_(toSigned16(octahedral(bounds.axes.axis).y)),
-      sinHalfO_(sinHalf16(std::atan2(bounds.axes.sinTheta, bounds.axes.cosTheta) + kAxisError)),
-      sinHalfE_(sinHalf16(std::acos(std::clamp(bounds.cosThetaE, -1.0f, 1.0f)))),
-      firstLeaf_(firstLeaf),
+      sinHalfO_(sinHalf(std::atan2(bounds.axes.sinTheta, bounds.axes.cosTheta) + kAxisError, 65535)),
+      sinHalfEAndTurns_(static_cast<std::uint16_t>(
+          sinHalf(std::acos(std::clamp(bounds.cosThetaE, -1.0f, 1.0f)), kStepsE) << kTurnBits | leftTurns)),
       leafCountAndSides_(leafCount | (bounds.twoSided ? kTwoSided : 0)) {}
 
 LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant)
@@ -231,7 +232,7 @@ bool LightTree::isInBlock(NodeId id) const {
 
 void LightTree::addBlocks(NodeId id, std::span<const float> intensities) {
   if (isInBlock(id)) {
-    sums_.addBlock(intensities.subspan(node(id).firstLeaf(), node(id).leafCount()));
+    sums_.addBlock(intensities.subspan(firstLeaf(id), node(id).leafCount()));
   } else {
     addBlocks(left(id), intensities);
     addBlocks(right(id), intensities);
@@ -259,7 +260,7 @@ SampledLeaf LightTree::sampleByIntensity(NodeId id, double u) const {
       id = right(id);
     }
   }
-  const SampledLeaf inBlock = sums_.sample(node(id).firstLeaf(), endOf(id), u);
+  const SampledLeaf inBlock = sums_.sample(firstLeaf(id), endOf(id), u);
   return {inBlock.leaf, pmf * inBlock.pmf};
 }
 
@@ -267,20 +268,21 @@ double LightTree::pmfByIntensity(NodeId id, std::uint32_t leaf) const {
   double pmf = 1;
   while (!isInBlock(id)) {
     const auto [toLeft, toRight] = intensityShares(id);
-    const bool isLeft = leaf < node(right(id)).firstLeaf();
+    const bool isLeft = leaf < firstLeaf(right(id));
     pmf *= isLeft ? toLeft : toRight;
     id = isLeft ? left(id) : right(id);
   }
-  return pmf * sums_.pmf(node(id).firstLeaf(), endOf(id), leaf);
+  return pmf * sums_.pmf(firstLeaf(id), endOf(id), leaf);
 }
 
 int LightTree::depth() const {
   // Depth-first order: a stack of the ends of the open nodes is as high as the node is deep.
   int deepest = 0;
   std::vector<std::uint32_t> ends;
-  for (const LightTreeNode& n : nodes_) {
-    while (!ends.empty() && n.firstLeaf() >= ends.back()) ends.pop_back();
-    ends.push_back(n.firstLeaf() + n.leafCount());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto id = static_cast<NodeId>(i);
+    while (!ends.empty() && firstLeaf(id) >= ends.back()) ends.pop_back();
+    ends.push_back(endOf(id));
     deepest = std::max(deepest, static_cast<int>(ends.size()));
   }
   return deepest;

@@ -2,7 +2,8 @@
 /// Binary hierarchy over the lights of one group; a cluster is a node, and its lights a contiguous range of leaves.
 ///
 /// Nodes lie in depth-first order: the left child of node i is i + 1, the right child i + 2 · (leaves of the left
-/// child), and a node with one leaf is a light. Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate
+/// child), and a node with one leaf is a light. Before node i lie its ancestors and whole subtrees to the left, two nodes per
+/// leaf but one: with f leaves to its left and l turns to the left on the way down to it, i = 2 f + l. Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate
 /// cases: design notes below. Space: metres for local lights; distant lights have no box. Threads: const members may
 /// run concurrently.
 #pragma once
@@ -19,35 +20,40 @@ namespace cellcut {
 
 enum class NodeId : std::uint32_t {};
 
-/// 44 bytes, so that two nodes per light with what belongs to them stay below 120 bytes. descent.cpp reads the members as
-/// eleven words in this order.
+/// 40 bytes, so that two nodes per light with what belongs to them stay below 120 bytes. descent.cpp reads the members as
+/// ten words in this order.
 class LightTreeNode {
  public:
   LightTreeNode() = default;
-  LightTreeNode(const LightBounds& bounds, std::uint32_t firstLeaf, std::uint32_t leafCount);
+  /// \param leftTurns  on the way down from the root, < 128
+  LightTreeNode(const LightBounds& bounds, std::uint32_t leftTurns, std::uint32_t leafCount);
 
   const Vec3& lower() const { return lower_; }
   const Vec3& upper() const { return upper_; }
   float intensity() const { return intensity_; }
-  std::uint32_t firstLeaf() const { return firstLeaf_; }
+  std::uint32_t leftTurns() const { return sinHalfEAndTurns_ & ((1u << kTurnBits) - 1); }
   std::uint32_t leafCount() const { return leafCountAndSides_ & ~kTwoSided; }
   bool twoSided() const { return (leafCountAndSides_ & kTwoSided) != 0; }
   /// Wider than what was stored by the rounding of 16-bit coordinates, at most 2·10⁻⁴ rad and more only near π.
   Cone axes() const;
-  /// θe as a cone's angle: cosine and sine, rounded up.
+  /// θe, rounded up: 90° becomes 90.03°.
   float cosThetaE() const;
+
+  static constexpr int kTurnBits = 7;
+  /// Steps of sin(θe/2): as many as leave room for the turns, such that √½ is nearly one.
+  static constexpr float kStepsE = 509;
 
  private:
   static constexpr std::uint32_t kTwoSided = 0x80000000u;
 
   Vec3 lower_, upper_;
   float intensity_;
-  std::int16_t axisX_, axisY_;         ///< octahedral
-  std::uint16_t sinHalfO_, sinHalfE_;  ///< sin(θ/2) · 65535, rounded up
-  std::uint32_t firstLeaf_;
+  std::int16_t axisX_, axisY_;      ///< octahedral
+  std::uint16_t sinHalfO_;          ///< sin(θo/2) · 65535, rounded up
+  std::uint16_t sinHalfEAndTurns_;  ///< sin(θe/2) · kStepsE, rounded up, above the turns
   std::uint32_t leafCountAndSides_;
 };
-static_assert(sizeof(LightTreeNode) == 44);
+static_assert(sizeof(LightTreeNode) == 40);
 
 // Inline: every step of a descent asks for them.
 inline Cone LightTreeNode::axes() const {
@@ -57,7 +63,7 @@ inline Cone LightTreeNode::axes() const {
 }
 
 inline float LightTreeNode::cosThetaE() const {
-  const float s = static_cast<float>(sinHalfE_) * (1.0f / 65535);
+  const float s = static_cast<float>(sinHalfEAndTurns_ >> kTurnBits) * (1 / kStepsE);
   return 1 - 2 * s * s;
 }
 
@@ -78,6 +84,7 @@ class LightTree {
     return static_cast<NodeId>(static_cast<std::uint32_t>(id) + 2 * node(left(id)).leafCount());
   }
 
+  std::uint32_t firstLeaf(NodeId id) const { return (static_cast<std::uint32_t>(id) - node(id).leftTurns()) / 2; }
   LightId light(std::uint32_t leaf) const { return leaves_[leaf]; }
   /// Leaf of a light of this tree, or kNoLeaf when it has none.
   std::uint32_t leafOf(LightId light) const {
@@ -98,7 +105,7 @@ class LightTree {
 
  private:
   bool isInBlock(NodeId id) const;
-  std::uint32_t endOf(NodeId id) const { return node(id).firstLeaf() + node(id).leafCount(); }
+  std::uint32_t endOf(NodeId id) const { return firstLeaf(id) + node(id).leafCount(); }
   /// J of each child / J of both. \pre not a leaf
   struct Shares {
     double left, right;

@@ -144,14 +144,12 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
     return !c.distant && (few || region.radius == 0 || region.radius > kNearShare * c.meanDistance);
   };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
-  const auto nodeOf = [&](const Cluster& c) -> const LightTreeNode& {
-    return (c.distant ? trees.distant : trees.local).node(c.node);
-  };
+  const auto treeOf = [&](const Cluster& c) -> const LightTree& { return c.distant ? trees.distant : trees.local; };
   const auto addMember = [&](const Cluster& c) {
-    const LightTreeNode& node = nodeOf(c);
+    const LightTree& tree = treeOf(c);
     // The mask says to the compiler that it fits.
-    members_.push_back({c.node, c.distant, node.leafCount() & 0x7fffffffu,
-                        node.firstLeaf() + (c.distant ? localLeaves : 0), c.estimate});
+    members_.push_back({c.node, c.distant, tree.node(c.node).leafCount() & 0x7fffffffu,
+                        tree.firstLeaf(c.node) + (c.distant ? localLeaves : 0), c.estimate});
   };
   members_.reserve(clusters.size());
   std::vector<std::uint16_t> far;         // by leaf
@@ -174,7 +172,7 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
   near_ = BlockedFloats(clusters.size() - far_.size(), kNearFields);
   for (const Cluster& c : clusters) {
     if (!isNear(c)) continue;
-    addNear(nodeOf(c), members_.size() - far_.size());
+    addNear(treeOf(c).node(c.node), members_.size() - far_.size());
     addMember(c);
   }
   if (!far_.empty()) choices_ = std::make_unique<std::atomic<const FarChoice*>[]>(kFacings);

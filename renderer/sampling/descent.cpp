@@ -56,8 +56,8 @@ Floats lobeFactors(const NodeImportance& importance, Floats toX, Floats toY, Flo
 /// Importances of four nodes.
 void weigh(const LightTree& tree, bool distant, const std::array<NodeId, kLanes>& nodes,
            const NodeImportance& importance, std::array<double, kLanes>& weights) {
-  // A node is eleven words: box, intensity, octahedral axis, angles, leaves.
-  static_assert(sizeof(LightTreeNode) == 11 * sizeof(float));
+  // A node is ten words: box, intensity, octahedral axis, angles, leaves.
+  static_assert(sizeof(LightTreeNode) == 10 * sizeof(float));
   /// Words `word` to `word` + 3 of all nodes.
   const auto load = [&](std::size_t word, Floats& a, Floats& b, Floats& c, Floats& d) {
     const auto ofNode = [&](std::size_t lane) {
@@ -66,8 +66,8 @@ void weigh(const LightTree& tree, bool distant, const std::array<NodeId, kLanes>
     a = ofNode(0), b = ofNode(1), c = ofNode(2), d = ofNode(3);
     transpose(a, b, c, d);
   };
-  Floats intensity, axisWord, angleWord, firstLeaf;
-  load(6, intensity, axisWord, angleWord, firstLeaf);
+  Floats intensity, axisWord, angleWord, countAndSides;
+  load(6, intensity, axisWord, angleWord, countAndSides);
 
   constexpr IntTag kIntTag;
   const auto axes = hn::BitCast(kIntTag, axisWord), angles = hn::BitCast(kIntTag, angleWord);
@@ -92,10 +92,9 @@ void weigh(const LightTree& tree, bool distant, const std::array<NodeId, kLanes>
     cosU = cosO, sinU = sinO;
     estimate = intensity;
   } else {
-    Floats lowerX, lowerY, lowerZ, upperX, upperY, upperZ, countAndSides, unused6, unused7, unused8, unused9;
+    Floats lowerX, lowerY, lowerZ, upperX, upperY, upperZ, unused6, unused7;
     load(0, lowerX, lowerY, lowerZ, upperX);
     load(4, upperY, upperZ, unused6, unused7);
-    load(7, unused7, unused8, unused9, countAndSides);
     const auto half = set(0.5f);
     const auto radiusAlong = [&](auto lower, auto upper, auto& centre) {
       centre = hn::Add(hn::Mul(half, upper), hn::Mul(half, lower));
@@ -107,8 +106,10 @@ void weigh(const LightTree& tree, bool distant, const std::array<NodeId, kLanes>
     toX = hn::Sub(toX, set(importance.p.x)), toY = hn::Sub(toY, set(importance.p.y)),
     toZ = hn::Sub(toZ, set(importance.p.z));
     const auto distance = coneTo(toX, toY, toZ, radius, cosU, sinU);
-    const auto halfE = toFloat(
-        hn::BitCast(kIntTag, hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<Tag>(), angles))), 1.0f / 65535);
+    constexpr int kEBits = 16 + LightTreeNode::kTurnBits;
+    const auto halfE =
+        toFloat(hn::BitCast(kIntTag, hn::ShiftRight<kEBits>(hn::BitCast(hn::RebindToUnsigned<Tag>(), angles))),
+                1 / LightTreeNode::kStepsE);
     const auto cosE = hn::NegMulAdd(hn::Add(halfE, halfE), halfE, one);
     const auto cosTheta = hn::Neg(dot(axisX, axisY, axisZ, toX, toY, toZ));
     const auto twoSided = hn::MaskFromVec(hn::BitCast(kTag, hn::BroadcastSignBit(hn::BitCast(kIntTag, countAndSides))));
@@ -168,7 +169,7 @@ std::optional<SampledLeaf> sampleIn(const LightTree& tree, bool distant, NodeId 
     pmf *= below.weights[chosen] / below.sum;
     node = below.nodes[chosen];
   }
-  return SampledLeaf{tree.node(node).firstLeaf(), pmf};
+  return SampledLeaf{tree.firstLeaf(node), pmf};
 }
 
 double pmfIn(const LightTree& tree, bool distant, NodeId node, const NodeImportance& importance, std::uint32_t leaf) {
@@ -179,7 +180,7 @@ double pmfIn(const LightTree& tree, bool distant, NodeId node, const NodeImporta
     // A light that takes two places is found at the first.
     std::size_t holder = 0;
     for (std::size_t i = 1; i < kLanes; ++i) {
-      if (below.nodes[i] != below.nodes[i - 1] && leaf >= tree.node(below.nodes[i]).firstLeaf()) holder = i;
+      if (below.nodes[i] != below.nodes[i - 1] && leaf >= tree.firstLeaf(below.nodes[i])) holder = i;
     }
     pmf *= below.weights[holder] / below.sum;
     node = below.nodes[holder];

@@ -113,9 +113,8 @@ double CutInspector::mirroredShare(const ShadingPoint& point) const {
 
 std::vector<LightId> CutInspector::lights(const ClusterInspection& cluster) const {
   const LightTree& t = tree(cluster.distant);
-  const LightTreeNode& node = t.node(cluster.node);
-  std::vector<LightId> lights(node.leafCount());
-  for (std::uint32_t i = 0; i < node.leafCount(); ++i) lights[i] = t.light(node.firstLeaf() + i);
+  std::vector<LightId> lights(t.node(cluster.node).leafCount());
+  for (std::uint32_t i = 0; i < lights.size(); ++i) lights[i] = t.light(t.firstLeaf(cluster.node) + i);
   return lights;
 }
 

@@ -40,12 +40,11 @@ LightTree brightAndFaint(std::size_t many, std::size_t few, float faint) {
 
 /// The node over just these leaves.
 NodeId nodeOver(const LightTree& tree, std::uint32_t firstLeaf, std::uint32_t count) {
-  const auto nodes = tree.nodes();
-  const auto found = std::find_if(nodes.begin(), nodes.end(), [&](const LightTreeNode& n) {
-    return n.firstLeaf() == firstLeaf && n.leafCount() == count;
-  });
-  EXPECT_NE(found, nodes.end());
-  return static_cast<NodeId>(static_cast<std::uint32_t>(found - nodes.begin()));
+  std::uint32_t at = 0;
+  const auto isIt = [&](NodeId id) { return tree.firstLeaf(id) == firstLeaf && tree.node(id).leafCount() == count; };
+  while (at < tree.nodes().size() && !isIt(NodeId{at})) ++at;
+  EXPECT_LT(at, tree.nodes().size());
+  return NodeId{at};
 }
 
 TEST(LightTree, StandsExtentsWhoseReciprocalOverflows) {
@@ -100,9 +99,10 @@ TEST(LightTree, AStrongLightAsideLeavesTheProbabilitiesOfOthersAlone) {
   int looked = 0;
   for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
     const LightTreeNode& node = tree.nodes()[i];
-    if (node.leafCount() < 10 || sun - node.firstLeaf() < node.leafCount()) continue;
+    const std::uint32_t first = tree.firstLeaf(NodeId{i});
+    if (node.leafCount() < 10 || sun - first < node.leafCount()) continue;
     ++looked;
-    for (std::uint32_t leaf = node.firstLeaf(); leaf < node.firstLeaf() + node.leafCount(); ++leaf) {
+    for (std::uint32_t leaf = first; leaf < first + node.leafCount(); ++leaf) {
       const double expected = static_cast<double>(intensities[static_cast<std::size_t>(tree.light(leaf))]) /
                               static_cast<double>(node.intensity());
       ASSERT_NEAR(tree.pmfByIntensity(static_cast<NodeId>(i), leaf) / expected, 1, 1e-3) << i << " " << leaf;

@@ -34,8 +34,8 @@ void expectNodeHoldsItsChildren(const LightTree& tree, NodeId id, bool distant) 
   if (tree.isLeaf(id)) return;
   const LightTreeNode& left = tree.node(tree.left(id));
   const LightTreeNode& right = tree.node(tree.right(id));
-  ASSERT_EQ(left.firstLeaf(), node.firstLeaf());
-  ASSERT_EQ(right.firstLeaf(), left.firstLeaf() + left.leafCount());
+  ASSERT_EQ(tree.firstLeaf(tree.left(id)), tree.firstLeaf(id));
+  ASSERT_EQ(tree.firstLeaf(tree.right(id)), tree.firstLeaf(id) + left.leafCount());
   ASSERT_EQ(left.leafCount() + right.leafCount(), node.leafCount());
   // One rounding of a float sum.
   ASSERT_FLOAT_EQ(node.intensity(), left.intensity() + right.intensity());

@@ -86,7 +86,7 @@ double pmfOneByOne(const LightTree& tree, bool distant, const NodeImportance& im
     for (const NodeId below : nodesBelow(tree, node)) {
       const double w = importanceOf(tree, distant, below, importance);
       sum += w;
-      if (leaf < tree.node(below).firstLeaf()) continue;
+      if (leaf < tree.firstLeaf(below)) continue;
       holder = below;
       weight = w;
     }
@@ -123,8 +123,7 @@ TEST(Descent, ALobeWeighsSingleLightsByGgx) {
         const LightId light = tree.light(leaf);
         if (room.lights.kind(light) != LightKind::kPoint) continue;
         NodeId node = tree.root();
-        while (!tree.isLeaf(node))
-          node = leaf < tree.node(tree.right(node)).firstLeaf() ? tree.left(node) : tree.right(node);
+        while (!tree.isLeaf(node)) node = leaf < tree.firstLeaf(tree.right(node)) ? tree.left(node) : tree.right(node);
         const Vec3 to = tree.node(node).lower() - point.p;
         const double weight = importanceOf(tree, false, node, mirroredImportance(point));
         if (!(glm::dot(to, point.n) > 0)) continue;
