@@ -24,9 +24,9 @@ void addStatistics(nlohmann::ordered_json& report, const SamplerStatistics& stat
     const double cells = static_cast<double>(grid->resolution[0]) * grid->resolution[1] * grid->resolution[2];
     report["grid"] = {{"resolution", grid->resolution},
                       {"cells", cells},
-                      {"touched", grid->touched},
+                      {"touched", grid->fine},
                       {"touched_coarse", grid->coarse},
-                      {"touched_percent", 100 * static_cast<double>(grid->touched) / cells}};
+                      {"touched_percent", 100 * static_cast<double>(grid->fine) / cells}};
   }
   if (const auto& cut = statistics.cut) {
     report["cut"] = {

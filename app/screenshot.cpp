@@ -119,6 +119,7 @@ nlohmann::ordered_json numbersOf(const Viewer& viewer, const OverlayChoice& choi
   if (overlay->touched) {
     json["cells"] = {{"touched", overlay->touched->inside},
                      {"outside", overlay->touched->outside},
+                     {"remote", overlay->touched->remote},
                      {"all", overlay->touched->all},
                      {"touched_percent", 100 * overlay->touched->share()}};
   }

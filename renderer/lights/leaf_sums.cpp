@@ -27,10 +27,26 @@ std::uint32_t LeafSums::upTo(std::uint32_t leaf) const {
 SampledLeaf LeafSums::sample(std::uint32_t first, std::uint32_t end, double u) const {
   const std::uint32_t start = before(first);
   const std::uint32_t target = start + static_cast<std::uint32_t>(u * (upTo(end) - start));
-  // The last leaf that does not begin after the target.
-  const auto next = std::upper_bound(before_.begin() + first + 1, before_.begin() + end, target,
-                                     [](std::uint32_t x, const Sum& sum) { return x < sum.get(); });
-  const auto leaf = static_cast<std::uint32_t>(next - before_.begin()) - 1;
+  // The last leaf that does not begin after the target. Where intensities are alike it lies at the same share of the range as
+  // the target: a search in growing steps from there looks at a cache line or two, one by halves at five of 1,024 leaves.
+  // The target is in [leaf, next) as soon as the first loop ends.
+  std::uint32_t leaf = first + static_cast<std::uint32_t>(u * (end - first));
+  std::uint32_t next = end;
+  for (std::uint32_t step = 4; before(leaf) > target; step *= 2) {
+    next = leaf;
+    leaf = leaf - first > step ? leaf - step : first;
+  }
+  for (std::uint32_t step = 4; next - leaf > step; step *= 2) {
+    if (before(leaf + step) > target) {
+      next = leaf + step;
+      break;
+    }
+    leaf += step;
+  }
+  while (next - leaf > 1) {
+    const std::uint32_t middle = leaf + (next - leaf) / 2;
+    (before(middle) > target ? next : leaf) = middle;
+  }
   return {leaf, pmf(first, end, leaf)};
 }
 

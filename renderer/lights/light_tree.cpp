@@ -16,6 +16,7 @@ constexpr int kBuckets = 12;
 constexpr std::size_t kSerialLights = 4096;
 /// From this depth on nodes are halved by count: 2³² lights need 32 more levels, so no path is longer than 96 nodes.
 constexpr int kMaxCostDepth = 64;
+static_assert(kMaxCostDepth + 32 < 1 << LightTreeNode::kTurnBits);
 
 /// What the build moves about: a light's bounds in brief.
 struct BuildLight {

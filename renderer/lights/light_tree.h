@@ -40,8 +40,9 @@ class LightTreeNode {
   float cosThetaE() const;
 
   static constexpr int kTurnBits = 7;
-  /// Steps of sin(θe/2): as many as leave room for the turns, such that √½ is nearly one.
+  /// Steps of sin(θe/2), of the bits that the turns leave; √½ is 359.92 of them, which loses little by being rounded up.
   static constexpr float kStepsE = 509;
+  static_assert(kStepsE < 1 << (16 - kTurnBits));
 
  private:
   static constexpr std::uint32_t kTwoSided = 0x80000000u;

@@ -89,13 +89,17 @@ SamplerStatistics CellCutSampler::statistics() const {
   CutStatistics cut{.seconds = static_cast<double>(makeNanoseconds_.load()) * 1e-9};
   std::uint64_t sum = 0;
   cells_.forEach([&](const CellCoordinates& cell, const Cut& c) {
-    cut.min = grid.made() == 0 ? c.size() : std::min(cut.min, c.size());
+    cut.bytes += c.bytes();
+    if (cell.coarse) {
+      ++grid.coarse;
+      return;
+    }
+    cut.min = grid.fine == 0 ? c.size() : std::min(cut.min, c.size());
     cut.max = std::max(cut.max, c.size());
     sum += c.size();
-    cut.bytes += c.bytes();
-    ++(cell.coarse ? grid.coarse : grid.touched);
+    ++grid.fine;
   });
-  if (grid.made() > 0) cut.mean = static_cast<double>(sum) / static_cast<double>(grid.made());
+  if (grid.fine > 0) cut.mean = static_cast<double>(sum) / static_cast<double>(grid.fine);
   s.grid = grid;
   s.cut = cut;
   return s;

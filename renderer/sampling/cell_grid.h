@@ -2,9 +2,9 @@
 /// The regular grid of cubic cells, and a table of what was made of the cells that were touched.
 ///
 /// Cells are addressed by integer coordinates and hashed, so that only touched cells take memory and space has no
-/// border. Later vertices of paths, and points far from what is seen, have coarse cells: paths scatter into many cells, each
-/// of which is asked seldom, so that fine ones would cost more time in the making and in missed caches than they save noise.
-/// The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
+/// border. Later vertices of paths have coarse cells, for paths scatter into many cells, each of which is asked seldom: fine
+/// ones would cost more time in the making and in missed caches than they save noise. So do points far from what is mostly
+/// seen, towards a horizon, where a fine cell is of few pixels. The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
 /// no global lock. What is made is never changed.
 #pragma once
 
@@ -39,8 +39,9 @@ class GridGeometry {
   Region region(const CellCoordinates& cell) const;
   /// The cube itself, its corners rounded to floats. Neighbours share their corners exactly.
   Bounds box(const CellCoordinates& cell) const;
-  /// Whether a cell has points farther from the box than a quarter of its longest axis: no fine cell lies there.
-  bool isRemote(const CellCoordinates& cell) const;
+  /// Whether a coarse cell lies farther from the box than a quarter of its longest axis: it has all of its points for itself.
+  /// The others share theirs with fine cells.
+  bool isRemote(const CellCoordinates& coarse) const;
   /// Of the fine cells, metres.
   double cellSize() const { return size_; }
   /// Fine cells that cover the box, per axis.
@@ -54,7 +55,7 @@ class GridGeometry {
   double size_;
   double inverseSize_;
   glm::ivec3 resolution_;
-  int margin_;  ///< cells around the box that are not remote
+  glm::ivec3 coarseShift_;  ///< fine cells from the lower corner of coarse cell 0 to that of the fine one
 };
 
 /// What the cut of a cell is found with: a coarse cell gets a quarter of the clusters.

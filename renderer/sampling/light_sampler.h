@@ -61,9 +61,9 @@ class LightSampler {
   /// all lights is 1 less the probability of nothing.
   /// \param u  uniform in [0, 1)
   virtual std::optional<SampledLight> sample(const ShadingPoint& point, double u) const = 0;
-  /// The probability that sample() returns `light` at this point.
+  /// The probability that sample() returns `light` at one and the same point, lobe and all.
   virtual float pmf(const ShadingPoint& point, LightId light) const = 0;
-  /// Whether it looks at ShadingPoint::lobe; one and the same lobe must be given to sample() and pmf() at a vertex.
+  /// Whether it looks at ShadingPoint::lobe.
   virtual bool usesLobe() const { return false; }
   /// Memory of its tables.
   virtual std::size_t bytes() const = 0;

@@ -64,15 +64,15 @@ inline constexpr int kMaxGridResolution = 1024;
 
 struct GridStatistics {
   std::array<int, 3> resolution{};  ///< fine cells that cover the pilot's box
-  std::size_t touched = 0;          ///< fine cells that were made, inside the box or outside
+  std::size_t fine = 0;             ///< fine cells that were made, inside the box or outside
   std::size_t coarse = 0;           ///< coarse cells that were made: of later path vertices and of remote points
-  std::size_t made() const { return touched + coarse; }
+  std::size_t made() const { return fine + coarse; }
 };
 struct CutStatistics {
-  std::size_t min = 0, max = 0;  ///< clusters
+  std::size_t min = 0, max = 0;  ///< clusters of the fine cells
   double mean = 0;
-  double seconds = 0;  ///< of all threads together
-  std::size_t bytes = 0;
+  double seconds = 0;     ///< of all cells and threads together
+  std::size_t bytes = 0;  ///< of all cells
 };
 struct TreeStatistics {
   std::size_t nodes = 0;

@@ -7,7 +7,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cmake --install "$1" --prefix "$folder/usr" >/dev/null
 cd "$folder"
-ls usr/share/doc/cellcut/{README.md,CHANGELOG.md,LICENSE} usr/share/bash-completion/completions/cellcut
+ls usr/share/doc/cellcut/{README.md,CHANGELOG.md,LICENSE,copyright} usr/share/bash-completion/completions/cellcut
 cellcut() { env -i HOME="$folder" "$folder/usr/bin/cellcut" "$@"; }
 for scene in usr/share/cellcut/scenes/*.glb; do cellcut info "$scene" >/dev/null; done
 cellcut render usr/share/cellcut/scenes/kinds.glb -o picture.exr --size 32x18 --spp 1

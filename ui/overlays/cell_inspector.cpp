@@ -66,9 +66,16 @@ Json toJson(const ClusterRow& row) {
 }
 
 Json cutToJson(const PixelReport& report) {
-  Json cut{{"cell", nullptr},           {"box", toJson(report.cellBox)},       {"touched", report.kept},
-           {"visits", report.visits},   {"size", report.clusters.size()},      {"unoccluded", report.unoccluded},
-           {"visible", report.visible}, {"distance", orNull(report.distance)}, {"mirrored", report.mirrored},
+  Json cut{{"cell", nullptr},
+           {"coarse", nullptr},
+           {"box", toJson(report.cellBox)},
+           {"touched", report.kept},
+           {"visits", report.visits},
+           {"size", report.clusters.size()},
+           {"unoccluded", report.unoccluded},
+           {"visible", report.visible},
+           {"distance", orNull(report.distance)},
+           {"mirrored", report.mirrored},
            {"clusters", Json::array()}};
   if (report.cell) {
     cut["cell"] = {report.cell->x, report.cell->y, report.cell->z};

@@ -172,7 +172,10 @@ std::optional<TouchedCells> touchedCells(const LightSampler& sampler) {
   touched.all = static_cast<std::size_t>(resolution.x) * static_cast<std::size_t>(resolution.y) *
                 static_cast<std::size_t>(resolution.z);
   inspector->forEachCell([&](const CellCoordinates& c, const Cut&) {
-    if (c.coarse) return;
+    if (c.coarse) {
+      touched.remote += inspector->grid()->isRemote(c) ? 1 : 0;
+      return;
+    }
     const bool inside =
         c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < resolution.x && c.y < resolution.y && c.z < resolution.z;
     ++(inside ? touched.inside : touched.outside);

@@ -1,8 +1,9 @@
 /// \file overlay.h
 /// The strategy's decisions and the state of the picture as one number per pixel.
 ///
-/// Cells are shown where the centre of a pixel first meets a surface: a cell counts as touched whichever path vertex
-/// touched it. NaN: there is no value, and nothing is drawn. Colours: color_scale.h. Threads: on the calling thread,
+/// Cells are shown where the centre of a pixel first meets a surface, those that the light there is chosen from: fine ones
+/// near what is seen, coarse ones towards the horizon. The coarse ones that bounces of light have among the fine are not shown.
+/// NaN: there is no value, and nothing is drawn. Colours: color_scale.h. Threads: on the calling thread,
 /// not while samples are drawn.
 #pragma once
 
@@ -42,8 +43,7 @@ struct OverlayName {
 
 inline constexpr std::array kOverlays{
     OverlayName{Overlay::kNone, "none", "no overlay", "", false, "the picture alone"},
-    OverlayName{Overlay::kTouched, "touched", "cells touched", "", true,
-                "cells whose cut was made, those of bounces left out"},
+    OverlayName{Overlay::kTouched, "touched", "cells touched", "", true, "cells whose cut was made"},
     OverlayName{Overlay::kVisits, "visits", "visits per cell", "", true, "lights asked for from the cell's cut"},
     OverlayName{Overlay::kCutSize, "cut-size", "cut size", "clusters", true, "clusters that one light is chosen from"},
     OverlayName{Overlay::kEstimate, "estimate", "estimate of the cut", "W/m²", false,
@@ -98,10 +98,11 @@ struct OverlayStatistics {
 };
 OverlayStatistics statisticsOf(const Image<float>& values);
 
-/// Fine cells whose cut was made.
+/// Fine cells whose cut was made, and remote coarse ones.
 struct TouchedCells {
   std::size_t inside = 0;   ///< in the box that the grid covers
-  std::size_t outside = 0;  ///< beyond it
+  std::size_t outside = 0;  ///< fine ones beyond it
+  std::size_t remote = 0;   ///< GridGeometry::isRemote()
   std::size_t all = 0;      ///< cells of the box
   double share() const { return all > 0 ? static_cast<double>(inside) / static_cast<double>(all) : 0; }
 };

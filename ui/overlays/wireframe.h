@@ -25,7 +25,8 @@ struct Segment {
 /// Appends the twelve edges of a box; of a flat one its four, of a line one, and nothing for a point or an empty box.
 void appendBox(std::vector<Segment>& segments, const Bounds& box, const Rgba8& color);
 
-/// The edges of all cells that were touched and kept; what neighbours share is there once. In a fixed order.
+/// The edges of the fine cells, and of the remote coarse ones, that were touched and kept; what neighbours of a size share is
+/// there once. In a fixed order.
 std::vector<Segment> touchedCellSegments(const CutInspector& inspector, const Rgba8& color);
 
 /// Colours for the probabilities of a cut: logarithmic over three decades below the largest one, for one cluster often

@@ -8,12 +8,13 @@ void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& s
   OverlayChoice& o = state.overlay;
   static constexpr auto kNames = namesOf(kOverlays);
   chooseEnum(widgets, "Show", o.overlay, kNames, describe(o.overlay).description.data());
-  widgets.checkbox("Grid cells", o.grid, "Wireframe of the cells that were touched (G)");
+  widgets.checkbox("Grid cells", o.grid,
+                   "Wireframe of the cells that were touched, but for coarse ones of bounces among them (G)");
   if (facts.overlay && facts.overlay->touched) {
     const TouchedCells& t = *facts.overlay->touched;
     widgets.text("Cells touched",
-                 formatted("%zu of %zu (%.1f %%), %zu beyond", t.inside, t.all, 100 * t.share(), t.outside),
-                 "By what the camera sees; of the cells that cover what the pilot paths saw");
+                 formatted("%zu of %zu (%.1f %%), %zu beyond", t.inside, t.all, 100 * t.share(), t.outside + t.remote),
+                 "Of the cells that cover what the pilot paths saw; beyond them also coarse ones");
   }
   if (state.settings.strategy == Strategy::kCellCut) {
     static constexpr std::array<std::string_view, 4> kAxes{"no slice", "across x", "across y", "across z"};

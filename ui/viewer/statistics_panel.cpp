@@ -16,10 +16,10 @@ void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts) {
   }
   widgets.text("Picture", formatted("%d x %d%s", s.width, s.height, s.preview ? ", preview" : ""));
   if (s.sampler.cut && s.sampler.grid && s.sampler.grid->made() > 0) {
-    widgets.text("Cells made", formatted("%zu, %zu coarse", s.sampler.grid->touched, s.sampler.grid->coarse),
+    widgets.text("Cells made", formatted("%zu fine, %zu coarse", s.sampler.grid->fine, s.sampler.grid->coarse),
                  "Coarse cells are those of light's bounces and of what is far from the view");
     widgets.text("Cut size", formatted("%zu … %.0f … %zu", s.sampler.cut->min, s.sampler.cut->mean, s.sampler.cut->max),
-                 "Least, mean and most clusters");
+                 "Least, mean and most clusters of the fine cells");
     widgets.text("Cells' memory", formatted("%.1f MB", static_cast<double>(s.sampler.cut->bytes) * 1e-6));
   }
   if (s.sampler.tree) {

@@ -87,9 +87,10 @@ TEST_F(OverlayRecount, TouchedCellsAreThoseOfTheVerticesThatAskInThem) {
   });
 
   const glm::ivec3 r = grid.resolution();
-  std::size_t inside = 0, fine = 0;
+  std::size_t inside = 0, fine = 0, remote = 0;
   for (const auto& [cell, yes] : touched) {
     const auto [x, y, z, coarse] = cell;
+    remote += coarse && grid.isRemote({x, y, z, coarse}) ? 1 : 0;
     if (coarse) continue;
     ++fine;
     inside += x >= 0 && x < r.x && y >= 0 && y < r.y && z >= 0 && z < r.z ? 1 : 0;
@@ -98,7 +99,8 @@ TEST_F(OverlayRecount, TouchedCellsAreThoseOfTheVerticesThatAskInThem) {
   ASSERT_TRUE(counted);
   EXPECT_EQ(counted->inside, inside);
   EXPECT_EQ(counted->inside + counted->outside, fine);
-  EXPECT_LT(fine, touched.size());
+  EXPECT_EQ(counted->remote, remote);
+  EXPECT_LT(fine + remote, touched.size());
   EXPECT_EQ(counted->all, static_cast<std::size_t>(r.x * r.y * r.z));
   EXPECT_EQ(counted->share(), static_cast<double>(inside) / static_cast<double>(counted->all));
 }

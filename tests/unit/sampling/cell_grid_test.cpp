@@ -30,23 +30,42 @@ double distance(const Vec3& a, const Vec3& b) {
 TEST(GridGeometry, IndirectAndRemotePointsHaveCoarseCells) {
   Bounds box;
   box.lower = Vec3(0);
-  box.upper = Vec3(16, 8, 8);
+  box.upper = Vec3(16, 7, 1);
   const GridGeometry grid(box, 16);
+  // Four fine cells wide, and centred on the box: one begins with it along x and y, and a cell before it along z.
+  EXPECT_EQ(grid.cellOf(Vec3(0.5f), true), (CellCoordinates{0, 0, 0, true}));
+  EXPECT_EQ(grid.box({0, 0, 0, true}).lower, Vec3(0, 0, -1));
+  EXPECT_EQ(grid.box({0, 0, 0, true}).upper, Vec3(4, 4, 3));
+  EXPECT_EQ(grid.cellOf(Vec3(-0.5f, 4.5f, -1.5f), true), (CellCoordinates{-1, 1, -1, true}));
+
+  // Remote are coarse cells that lie whole beyond a quarter of the longest axis, on any axis.
   const auto coarse = [&](const Vec3& p) { return grid.cellOf(p)->coarse; };
-  // Up to a quarter of the longest axis outside of the box on any axis.
-  for (const Vec3& near : {Vec3(0.5f), Vec3(-3.9f, 3, 3), Vec3(19.9f, 11.9f, -3.9f)}) EXPECT_FALSE(coarse(near));
-  for (const Vec3& far : {Vec3(-4.1f, 3, 3), Vec3(20.1f, 3, 3), Vec3(3, 12.1f, 3), Vec3(3, 3, -4.1f)})
-    EXPECT_TRUE(coarse(far));
-  EXPECT_EQ(*grid.cellOf(Vec3(-0.5f, 3.5f, 4.5f), true), (CellCoordinates{-1, 0, 1, true}));
-  EXPECT_EQ(grid.box({-1, 0, 1, true}).upper - grid.box({-1, 0, 1, true}).lower, Vec3(4));
-  // A coarse cell is remote as soon as a part of it is.
-  EXPECT_FALSE(grid.isRemote({4, 2, -1, true}));
-  EXPECT_TRUE(grid.isRemote({5, 2, -1, true}));
-  EXPECT_TRUE(grid.isRemote({4, 2, -2, true}));
+  for (const Vec3& near : {Vec3(0.5f), Vec3(-3.9f, 3, 0), Vec3(19.9f, 11.9f, 0), Vec3(3, 3, -4.9f), Vec3(3, 3, 6.9f)})
+    EXPECT_FALSE(coarse(near)) << near.x << " " << near.y << " " << near.z;
+  for (const Vec3& far : {Vec3(-4.1f, 3, 0), Vec3(20.1f, 3, 0), Vec3(3, 12.1f, 0), Vec3(3, 3, -5.1f), Vec3(3, 3, 7.1f)})
+    EXPECT_TRUE(coarse(far)) << far.x << " " << far.y << " " << far.z;
 
   EXPECT_EQ(cutSettingsOf({.maxCut = 1024}, {0, 0, 0}).maxSize, 1024);
   EXPECT_EQ(cutSettingsOf({.maxCut = 1024}, {0, 0, 0, true}).maxSize, 256);
   EXPECT_EQ(cutSettingsOf({.maxCut = 2}, {0, 0, 0, true}).maxSize, 2);
+}
+
+// Points have fine or coarse cells by where they are, and never both: no light is chosen from a coarse cell among the fine
+// but after a bounce.
+TEST(GridGeometry, RemoteCellsHaveNoFineOnesInThem) {
+  Rng rng(5);
+  for (const int resolution : {1, 2, 3, 5, 6, 7, 10, 16, 20}) {
+    Bounds box;
+    box.lower = Vec3(0);
+    box.upper = Vec3(9, 4, 6.5f);
+    const GridGeometry grid(box, resolution);
+    for (int i = 0; i < 5000; ++i) {
+      const Vec3 p(rng.uniform(-20, 30), rng.uniform(-20, 30), rng.uniform(-20, 30));
+      ASSERT_EQ(grid.cellOf(p)->coarse, grid.isRemote(*grid.cellOf(p, true)));
+      const bool inside = glm::clamp(p, box.lower, box.upper) == p;
+      if (inside) ASSERT_FALSE(grid.cellOf(p)->coarse);
+    }
+  }
 }
 
 // Cells of 3.8 floats: of four in a row the farthest is 2 floats from the rounded centre, and half of the cell is 1.9.
@@ -58,8 +77,10 @@ TEST(GridGeometry, CellsHoldTheirPointsWhereFloatsAreCoarse) {
   Rng rng(1);
   for (int i = 0; i < 200'000; ++i) {
     const Vec3 p = Vec3(5000) + 0.13f * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
-    const Region region = grid.region(*grid.cellOf(p));
-    ASSERT_LE(distance(p, region.centre), static_cast<double>(region.radius));
+    for (const bool indirect : {false, true}) {
+      const Region region = grid.region(*grid.cellOf(p, indirect));
+      ASSERT_LE(distance(p, region.centre), static_cast<double>(region.radius));
+    }
   }
 }
 

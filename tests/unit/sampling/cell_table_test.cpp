@@ -19,7 +19,9 @@ constexpr std::size_t kCells = kSide * kSide * kSide;
 
 CellCoordinates cellAt(std::size_t i) {
   const auto n = static_cast<std::int32_t>(i);
-  return {n % kSide, n / kSide % kSide, n / (kSide * kSide)};
+  const std::int32_t layer = n / (kSide * kSide);
+  // On both sides of zero, half of them coarse and otherwise like a fine one.
+  return {n % kSide - 3, n / kSide % kSide - 3, layer / 2, layer % 2 == 1};
 }
 
 /// Runs a function on several threads at once. They are std::thread's, so that a race detector sees them.
@@ -78,7 +80,10 @@ TEST_F(CellTableOnThreads, EachCellIsMadeOnceAndAllSeeTheSameCut) {
       }
     });
     std::size_t cells = 0;
-    table.forEach([&](const CellCoordinates&, const Cut&) { ++cells; });
+    table.forEach([&](const CellCoordinates& cell, const Cut& cut) {
+      ++cells;
+      EXPECT_EQ(table.find(cell), &cut);
+    });
     std::size_t touched = 0;
     for (std::size_t i = 0; i < kCells; ++i) {
       const Cut* kept = table.find(cellAt(i));

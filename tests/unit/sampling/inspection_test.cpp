@@ -136,7 +136,7 @@ TEST(CutInspector, LooksWithoutTouching) {
   const CellCutStage s({.countVisits = true});
   const auto before = s.inspector.inspect(s.point);
   EXPECT_FALSE(before.kept);
-  EXPECT_EQ(s.sampler->statistics().grid->touched, 0u);
+  EXPECT_EQ(s.sampler->statistics().grid->made(), 0u);
   EXPECT_EQ(s.sampler->statistics().cut->seconds, 0);
 
   for (int i = 0; i < 5; ++i) s.sampler->sample(s.point, 0.2 * i);
@@ -173,7 +173,7 @@ TEST(CutInspector, SummaryIsThatOfTheClusters) {
   EXPECT_EQ(summary.size, inspection.clusters.size());
   EXPECT_EQ(summary.estimate, estimate);
   EXPECT_EQ(summary.depth, depth);
-  EXPECT_GT(summary.depth, 3);  // 300 lights in 50 clusters at least: the cell is a remote one
+  EXPECT_GT(summary.depth, 3);  // 300 lights in 100 clusters at least: a coarse cell has a quarter of 400
 }
 
 // One point light is one cluster whose box is a point: its estimate for a point is its irradiance of a surface that
