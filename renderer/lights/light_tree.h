@@ -2,10 +2,11 @@
 /// Binary hierarchy over the lights of one group; a cluster is a node, and its lights a contiguous range of leaves.
 ///
 /// Nodes lie in depth-first order: the left child of node i is i + 1, the right child i + 2 · (leaves of the left
-/// child), and a node with one leaf is a light. Before node i lie its ancestors and whole subtrees to the left, two nodes per
-/// leaf but one: with f leaves to its left and l turns to the left on the way down to it, i = 2 f + l. Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate
-/// cases: design notes below. Space: metres for local lights; distant lights have no box. Threads: const members may
-/// run concurrently.
+/// child), and a node with one leaf is a light. Before node i lie its ancestors and whole subtrees to the left, two nodes
+/// per leaf but one: with f leaves to its left and l turns to the left on the way down to it, i = 2 f + l.
+///
+/// Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate cases: design notes below. Space: metres for
+/// local lights; distant lights have no box. Threads: const members may run concurrently.
 #pragma once
 
 #include "renderer/base/octahedral.h"

@@ -17,9 +17,9 @@ constexpr std::size_t kMaxSlots = std::size_t{1} << 22;
 /// Slots looked at before the table counts as full.
 constexpr std::size_t kMaxProbes = 64;
 
-/// A coarse cell is four fine ones wide and has a quarter of the clusters. At depth 5 (16 spp, 320×180) relMSE × seconds is 0.57
-/// (`hall`) to 0.87 (`street`) of what it is with cells of one kind, and twice or half of either is no better. Remote points, at
-/// depth 1: up to 11 % less time for the same noise.
+/// A coarse cell is four fine ones wide and has a quarter of the clusters. At depth 5 (16 spp, 320×180) relMSE × seconds is
+/// 0.57 (`hall`) to 0.87 (`street`) of what it is with cells of one kind, and twice or half of either is no better. For
+/// remote points, at depth 1: up to 11 % less time for the same noise.
 constexpr int kCoarse = 4;
 
 /// 21 bits per axis, and one.

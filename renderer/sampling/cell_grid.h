@@ -2,10 +2,12 @@
 /// The regular grid of cubic cells, and a table of what was made of the cells that were touched.
 ///
 /// Cells are addressed by integer coordinates and hashed, so that only touched cells take memory and space has no
-/// border. Later vertices of paths have coarse cells, for paths scatter into many cells, each of which is asked seldom: fine
-/// ones would cost more time in the making and in missed caches than they save noise. So do points far from what is mostly
-/// seen, towards a horizon, where a fine cell is of few pixels. The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
+/// border. The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
 /// no global lock. What is made is never changed.
+///
+/// They come in two sizes. Later vertices of paths have coarse cells, for paths scatter into many places, and in each a light
+/// is asked for seldom: fine cells would cost more time in the making and in missed caches than they save noise. Coarse are
+/// also those far from what is mostly seen, towards a horizon, where few pixels share one.
 #pragma once
 
 #include "renderer/sampling/cut.h"
