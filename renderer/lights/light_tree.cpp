@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
 namespace cellcut {
@@ -116,7 +117,7 @@ Split bestSplit(std::span<const BuildLight> lights, const Bounds& middles) {
 
 class Builder {
  public:
-  Builder(std::span<const LightBounds> bounds, std::vector<BuildLight>& lights, std::vector<LightTreeNode>& nodes)
+  Builder(std::span<const LightBounds> bounds, std::span<BuildLight> lights, LightTreeNode* nodes)
       : bounds_(bounds), lights_(lights), nodes_(nodes) {}
 
   /// Builds the subtree over lights [first, last) at `node` and returns its bounds.
@@ -147,7 +148,7 @@ class Builder {
  private:
   /// Reorders [first, last) and returns where the right side begins, both sides non-empty.
   std::size_t split(std::size_t first, std::size_t last, int depth) {
-    const std::span<BuildLight> range(lights_.data() + first, last - first);
+    const std::span<BuildLight> range = lights_.subspan(first, last - first);
     if (range.size() == 2) return first + 1;
     Bounds middles;
     for (const BuildLight& light : range) middles.add(light.middle());
@@ -166,8 +167,8 @@ class Builder {
   }
 
   std::span<const LightBounds> bounds_;
-  std::vector<BuildLight>& lights_;
-  std::vector<LightTreeNode>& nodes_;
+  std::span<BuildLight> lights_;
+  LightTreeNode* nodes_;
 };
 
 /// Leaves of the largest subtrees that are blocks of LeafSums: at 10⁶ lights a cluster of a cut has some 1000, and is one.
@@ -201,30 +202,35 @@ LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t leftTurns,
 
 LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant)
     : leafOfLight_(bounds.size(), kNoLeaf), firstId_(firstId) {
-  std::vector<BuildLight> lights;
-  lights.reserve(bounds.size());
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const LightBounds& b = bounds[i];
-    if (!(b.intensity > 0)) continue;
+  std::vector<std::uint32_t> shining;
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    if (bounds[i].intensity > 0) shining.push_back(static_cast<std::uint32_t>(i));
+  if (shining.empty()) return;
+  const auto memory = std::make_unique_for_overwrite<BuildLight[]>(shining.size());
+  const std::span lights(memory.get(), shining.size());
+  tbb::parallel_for(std::size_t{0}, lights.size(), [&](std::size_t i) {
+    const LightBounds& b = bounds[shining[i]];
     const Vec3 lower = distant ? b.axes.axis : b.box.lower, upper = distant ? b.axes.axis : b.box.upper;
-    lights.push_back(
-        {lower, upper, b.axes.axis * (0.5f + 0.5f * b.axes.cosTheta), b.intensity, static_cast<std::uint32_t>(i)});
-  }
-  if (lights.empty()) return;
-  nodes_.resize(2 * lights.size() - 1);
-  Builder(bounds, lights, nodes_).build(0, lights.size(), 0, 0);
+    lights[i] = {lower, upper, b.axes.axis * (0.5f + 0.5f * b.axes.cosTheta), b.intensity, shining[i]};
+  });
+  nodes_ = std::make_unique_for_overwrite<LightTreeNode[]>(2 * lights.size() - 1);
+  Builder(bounds, lights, nodes_.get()).build(0, lights.size(), 0, 0);
 
-  std::vector<float> intensities;
-  intensities.reserve(lights.size());
-  for (const BuildLight& light : lights) intensities.push_back(light.intensity);
-  sums_.reserve(intensities.size());
-  addBlocks(root(), intensities);
-
-  leaves_.reserve(lights.size());
-  for (const BuildLight& light : lights) {
-    leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
-    leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
-  }
+  const auto addSums = [&] {
+    std::vector<float> intensities;
+    intensities.reserve(lights.size());
+    for (const BuildLight& light : lights) intensities.push_back(light.intensity);
+    sums_.reserve(intensities.size());
+    addBlocks(root(), intensities);
+  };
+  const auto addLeaves = [&] {
+    leaves_.reserve(lights.size());
+    for (const BuildLight& light : lights) {
+      leafOfLight_[light.index] = static_cast<std::uint32_t>(leaves_.size());
+      leaves_.push_back(static_cast<LightId>(static_cast<std::uint32_t>(firstId) + light.index));
+    }
+  };
+  tbb::parallel_invoke(addSums, addLeaves);
 }
 
 bool LightTree::isInBlock(NodeId id) const {
@@ -280,7 +286,7 @@ int LightTree::depth() const {
   // Depth-first order: a stack of the ends of the open nodes is as high as the node is deep.
   int deepest = 0;
   std::vector<std::uint32_t> ends;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
     const auto id = static_cast<NodeId>(i);
     while (!ends.empty() && firstLeaf(id) >= ends.back()) ends.pop_back();
     ends.push_back(endOf(id));
@@ -290,8 +296,8 @@ int LightTree::depth() const {
 }
 
 std::size_t LightTree::bytes() const {
-  return nodes_.capacity() * sizeof(LightTreeNode) + leaves_.capacity() * sizeof(LightId) +
-         leafOfLight_.capacity() * sizeof(std::uint32_t) + sums_.bytes();
+  return nodes().size_bytes() + leaves_.capacity() * sizeof(LightId) + leafOfLight_.capacity() * sizeof(std::uint32_t) +
+         sums_.bytes();
 }
 
 }  // namespace cellcut

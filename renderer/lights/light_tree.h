@@ -14,6 +14,7 @@
 #include "renderer/lights/light_bounds.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -76,7 +77,7 @@ class LightTree {
   /// \param distant  boxes are ignored: lights are grouped by the direction that they shine in
   LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant);
 
-  bool empty() const { return nodes_.empty(); }
+  bool empty() const { return leaves_.empty(); }
   std::size_t leafCount() const { return leaves_.size(); }
   NodeId root() const { return NodeId{0}; }
   const LightTreeNode& node(NodeId id) const { return nodes_[static_cast<std::size_t>(id)]; }
@@ -101,7 +102,7 @@ class LightTree {
   /// Its probability. \pre the leaf is below the node
   double pmfByIntensity(NodeId id, std::uint32_t leaf) const;
 
-  std::span<const LightTreeNode> nodes() const { return nodes_; }
+  std::span<const LightTreeNode> nodes() const { return {nodes_.get(), empty() ? 0 : 2 * leafCount() - 1}; }
   int depth() const;
   std::size_t bytes() const;
 
@@ -115,8 +116,8 @@ class LightTree {
   Shares intensityShares(NodeId id) const;
   void addBlocks(NodeId id, std::span<const float> intensities);
 
-  std::vector<LightTreeNode> nodes_;
-  std::vector<LightId> leaves_;  ///< in depth-first order
+  std::unique_ptr<LightTreeNode[]> nodes_;  ///< no vector: its zeros would touch all of the memory on one thread
+  std::vector<LightId> leaves_;             ///< in depth-first order
   std::vector<std::uint32_t> leafOfLight_;
   LeafSums sums_;
   LightId firstId_;
