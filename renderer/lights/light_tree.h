@@ -97,8 +97,9 @@ class LightTree {
 
   /// Chooses a leaf of a node with probability proportional to J: child by child down to a block of LeafSums, and not by sums
   /// over all leaves, in which faint lights beside strong ones are lost.
+  /// \param first, count  the node's leaves, which the caller knows: most nodes are in no cache
   /// \param u  uniform in [0, 1)
-  SampledLeaf sampleByIntensity(NodeId id, double u) const;
+  SampledLeaf sampleByIntensity(NodeId id, std::uint32_t first, std::uint32_t count, double u) const;
   /// Its probability. \pre the leaf is below the node
   double pmfByIntensity(NodeId id, std::uint32_t leaf) const;
 

@@ -126,7 +126,7 @@ class CutChoice {
     const std::optional<SampledLeaf> leaf =
         descends(inCluster_, member)
             ? sampleByDescent(tree, member.distant, member.node, NodeImportance{point_.p, point_.n}, u)
-            : tree.sampleByIntensity(member.node, u);
+            : tree.sampleByIntensity(member.node, first, member.leafCount, u);
     if (!leaf) return std::nullopt;
     return sampledLight(tree.light(leaf->leaf), pmf * leaf->pmf);
   }

@@ -78,7 +78,7 @@ TEST(LightTree, DrawsFaintLightsAsOftenAsItSays) {
   std::array<int, 4> counts{};
   constexpr int kDraws = 4000;
   for (int i = 0; i < kDraws; ++i) {
-    const SampledLeaf leaf = tree.sampleByIntensity(faint, (i + 0.5) / kDraws);
+    const SampledLeaf leaf = tree.sampleByIntensity(faint, first, 4, (i + 0.5) / kDraws);
     EXPECT_EQ(leaf.pmf, 0.25);
     ++counts[leaf.leaf - first];
   }
@@ -125,7 +125,7 @@ TEST(LightTree, ProbabilitiesByIntensityAddUpAndAreThoseOfTheDraw) {
   for (std::uint32_t leaf = 0; leaf < tree.leafCount(); ++leaf) sum += tree.pmfByIntensity(tree.root(), leaf);
   EXPECT_NEAR(sum, 1, 1e-12);  // five thousand double roundings
   for (const double u : {0.0, 0.1, 0.5, 0.9, 1 - 0x1p-24, 1 - 0x1p-53}) {
-    const SampledLeaf leaf = tree.sampleByIntensity(tree.root(), u);
+    const SampledLeaf leaf = tree.sampleByIntensity(tree.root(), 0, 5000, u);
     EXPECT_EQ(leaf.pmf, tree.pmfByIntensity(tree.root(), leaf.leaf));
     EXPECT_GT(leaf.pmf, 0);
   }
