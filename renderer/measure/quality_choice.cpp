@@ -12,9 +12,9 @@ namespace cellcut {
 namespace {
 
 /// Pixels of a trial's film: a sixteenth of the picture's, but enough for the variance of a group of them to mean
-/// something, and no more than it takes for that to be known well (64×36 and 320×180).
+/// something (64×36).
 double trialPixels(double pixels) {
-  return std::min(pixels, std::clamp(pixels / 16, 64.0 * 36, 320.0 * 180));
+  return std::min(pixels, std::max(pixels / 16, 64.0 * 36));
 }
 
 /// The same view on a small film, with samples that are neither the picture's nor another candidate's.
