@@ -25,8 +25,8 @@ namespace {
 
 /// Of the rendering that a setting is to be good for: what it builds is spread over it.
 constexpr double kSeconds = 60;
-/// For trials of this many seconds.
-constexpr PlannedLength kTrials{.seconds = 12 / kTrialShare};
+/// Seconds of trials in direct light and at depth 5: three passes of each setting are the least.
+constexpr double kDirectTrials = 10, kDeepTrials = 16;
 /// Settings that take turns with `balanced`.
 constexpr std::size_t kAtOnce = 3;
 /// How much less efficient than `balanced` the others may be.
@@ -49,7 +49,7 @@ std::vector<Quality> candidates() {
     if (std::none_of(all.begin(), all.end(), isIt)) all.push_back({"", "", settings});
   };
   for (const int maxCut : {256, 512, 1024, 2048}) {
-    for (const float threshold : {0.0005f, 0.002f, 0.005f}) {
+    for (const float threshold : {0.0005f, 0.002f}) {
       for (const InCluster inCluster : {InCluster::kIntensity, InCluster::kDescent}) {
         add({.threshold = threshold, .maxCut = maxCut, .inCluster = inCluster});
       }
@@ -81,7 +81,8 @@ std::vector<Score> scores() {
       std::vector<Quality> tried{all[0]};
       for (std::size_t i = begin; i < std::min(begin + kAtOnce, all.size()); ++i) tried.push_back(all[i]);
       Renderer renderer(base, base.settings());
-      const QualityChoice choice = chooseQuality(renderer, tried, kTrials, std::atomic<bool>(false));
+      const PlannedLength length{.seconds = (maxDepth == 1 ? kDirectTrials : kDeepTrials) / kTrialShare};
+      const QualityChoice choice = chooseQuality(renderer, tried, length, std::atomic<bool>(false));
       spent += choice.seconds;
       const QualityTrial& first = choice.trials[0];
       for (std::size_t i = 1; i < tried.size(); ++i) {
