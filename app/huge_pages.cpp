@@ -6,7 +6,7 @@
 #include <new>
 #include <sys/mman.h>
 
-#if defined(MADV_HUGEPAGE) && !defined(__SANITIZE_ADDRESS__)  // its own new tells mismatched pairs
+#ifdef MADV_HUGEPAGE
 
 namespace {
 

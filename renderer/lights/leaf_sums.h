@@ -39,7 +39,7 @@ class LeafSums {
   struct Sum {
     std::uint8_t bytes[3];
     explicit Sum(std::uint32_t n);
-    std::uint32_t get() const { return bytes[0] | bytes[1] << 8 | bytes[2] << 16; }
+    std::uint32_t get() const { return bytes[0] | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16; }
   };
 
   std::uint32_t before(std::uint32_t leaf) const { return before_[leaf].get(); }

@@ -197,7 +197,8 @@ LightTreeNode::LightTreeNode(const LightBounds& bounds, std::uint32_t leftTurns,
       axisY_(toSigned16(octahedral(bounds.axes.axis).y)),
       sinHalfO_(sinHalf(std::atan2(bounds.axes.sinTheta, bounds.axes.cosTheta) + kAxisError, 65535)),
       sinHalfEAndTurns_(static_cast<std::uint16_t>(
-          sinHalf(std::acos(std::clamp(bounds.cosThetaE, -1.0f, 1.0f)), kStepsE) << kTurnBits | leftTurns)),
+          std::uint32_t{sinHalf(std::acos(std::clamp(bounds.cosThetaE, -1.0f, 1.0f)), kStepsE)} << kTurnBits |
+          leftTurns)),
       leafCountAndSides_(leafCount | (bounds.twoSided ? kTwoSided : 0)) {}
 
 LightTree::LightTree(std::span<const LightBounds> bounds, LightId firstId, bool distant)

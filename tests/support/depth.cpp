@@ -18,12 +18,16 @@ std::size_t byDepth(std::size_t always, std::size_t atNight) {
   return isNightly() ? atNight : always;
 }
 
-bool isSixteenth() {
+bool isSanitized() {
 #ifdef CELLCUT_SANITIZED
-  return !wantsAllSamples();
+  return true;
 #else
   return false;
 #endif
+}
+
+bool isSixteenth() {
+  return isSanitized() && !wantsAllSamples();
 }
 
 std::size_t sampleShare(std::size_t samples) {

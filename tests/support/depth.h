@@ -9,6 +9,9 @@ namespace cellcut::test {
 /// `always` on every change, `atNight` where nightly.h says so: the full counts of the statistical proofs.
 std::size_t byDepth(std::size_t always, std::size_t atNight);
 
+/// Whether the tests were compiled with ASan or TSan.
+bool isSanitized();
+
 /// Whether this is a sanitizer's run of the share that every change goes through: samples look for bugs of memory there,
 /// not of mathematics.
 bool isSixteenth();

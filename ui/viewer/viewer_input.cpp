@@ -193,8 +193,8 @@ void Viewer::readMouse() {
     }
     if (ImGui::IsMouseDown(button)) continue;
     if (drag.moved) {
-      record({"drag", kButtons[button], exactNumber(drag.start.x), exactNumber(drag.start.y), exactNumber(position.x),
-              exactNumber(position.y)});
+      record({"drag", kButtons[static_cast<std::size_t>(button)], exactNumber(drag.start.x), exactNumber(drag.start.y),
+              exactNumber(position.x), exactNumber(position.y)});
     } else if (button == ImGuiMouseButton_Left) {
       const std::optional<glm::ivec2> pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
       if (pixel) {

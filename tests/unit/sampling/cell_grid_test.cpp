@@ -4,6 +4,7 @@
 #include "renderer/sampling/cell_cut.h"
 #include "renderer/sampling/facing.h"
 #include "renderer/sampling/inspection.h"
+#include "tests/support/depth.h"
 #include "tests/support/scenes.h"
 
 #include <array>
@@ -63,7 +64,9 @@ TEST(GridGeometry, RemoteCellsHaveNoFineOnesInThem) {
       const Vec3 p(rng.uniform(-20, 30), rng.uniform(-20, 30), rng.uniform(-20, 30));
       ASSERT_EQ(grid.cellOf(p)->coarse, grid.isRemote(*grid.cellOf(p, true)));
       const bool inside = glm::clamp(p, box.lower, box.upper) == p;
-      if (inside) ASSERT_FALSE(grid.cellOf(p)->coarse);
+      if (inside) {
+        ASSERT_FALSE(grid.cellOf(p)->coarse);
+      }
     }
   }
 }
@@ -126,9 +129,7 @@ TEST(CellTable, DoesNotKeepOthersWaitingForACellThatCouldNotBeMade) {
 }
 
 TEST(BlockedFloats, ThrowWhenThereIsNoMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "the sanitizer ends the program when memory is short";
-#endif
+  if (isSanitized()) GTEST_SKIP() << "the sanitizer ends the program when memory is short";
   EXPECT_THROW(BlockedFloats(std::size_t{1} << 50, kNearFields), std::bad_alloc);
 }
 
