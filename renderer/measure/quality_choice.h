@@ -20,8 +20,8 @@ struct QualityChoice {
   std::vector<QualityTrial> trials;  ///< of what was there to choose from, the first one first
 };
 
-/// Tries `candidates` on the scene of `renderer`, on films of a sixteenth of its pixels (but 64×36 if it has them), whose samples are
-/// thrown away.
+/// Tries `candidates` on the scene of `renderer`, on films of a sixteenth of its pixels (at least 64×36, where it has
+/// them), whose samples are thrown away.
 /// Candidates that this rendering cannot tell apart (those of a strategy without cuts) are tried as one. `renderer` then
 /// has the chosen settings, and renders the picture of a renderer that was made with them, bit for bit.
 ///
