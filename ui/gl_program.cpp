@@ -3,6 +3,7 @@
 #include "ui/gl_error.h"
 
 #include <string>
+#include <vector>
 
 #include <epoxy/gl.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -28,13 +29,11 @@ GlShaderHandle compile(GLenum stage, std::string_view name, std::string_view tex
   throw GlError(std::string(name) + ": does not compile: " + log);
 }
 
-GlProgramHandle link(std::string_view name, const GlShaderHandle& vertex, const GlShaderHandle& fragment) {
+GlProgramHandle link(std::string_view name, const std::vector<GlShaderHandle>& shaders) {
   GlProgramHandle program(glCreateProgram());
-  glAttachShader(program.name(), vertex.name());
-  glAttachShader(program.name(), fragment.name());
+  for (const GlShaderHandle& shader : shaders) glAttachShader(program.name(), shader.name());
   glLinkProgram(program.name());
-  glDetachShader(program.name(), vertex.name());
-  glDetachShader(program.name(), fragment.name());
+  for (const GlShaderHandle& shader : shaders) glDetachShader(program.name(), shader.name());
   GLint linked = GL_FALSE;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
   if (linked == GL_TRUE) return program;
@@ -48,13 +47,19 @@ GlProgramHandle link(std::string_view name, const GlShaderHandle& vertex, const 
 
 }  // namespace
 
-GlProgram::GlProgram(std::string_view vertexFile, std::string_view fragmentFile)
-    : handle_(link(fragmentFile, compile(GL_VERTEX_SHADER, vertexFile, shaderText(vertexFile)),
-                   compile(GL_FRAGMENT_SHADER, fragmentFile, shaderText(fragmentFile)))) {}
+GlProgram::GlProgram(std::string_view vertexFile, std::initializer_list<std::string_view> fragmentFiles) {
+  std::vector<GlShaderHandle> shaders;
+  shaders.push_back(compile(GL_VERTEX_SHADER, vertexFile, shaderText(vertexFile)));
+  for (const std::string_view file : fragmentFiles)
+    shaders.push_back(compile(GL_FRAGMENT_SHADER, file, shaderText(file)));
+  handle_ = link(*fragmentFiles.begin(), shaders);
+}
 
 GlProgram GlProgram::fromText(std::string_view name, std::string_view vertexText, std::string_view fragmentText) {
-  return GlProgram(
-      link(name, compile(GL_VERTEX_SHADER, name, vertexText), compile(GL_FRAGMENT_SHADER, name, fragmentText)));
+  std::vector<GlShaderHandle> shaders;
+  shaders.push_back(compile(GL_VERTEX_SHADER, name, vertexText));
+  shaders.push_back(compile(GL_FRAGMENT_SHADER, name, fragmentText));
+  return GlProgram(link(name, shaders));
 }
 
 void GlProgram::use() const {

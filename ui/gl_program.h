@@ -5,6 +5,7 @@
 #include "renderer/base/math.h"
 #include "ui/gl_handle.h"
 
+#include <initializer_list>
 #include <string_view>
 
 #include <glm/mat4x4.hpp>
@@ -13,9 +14,9 @@ namespace cellcut {
 
 class GlProgram {
  public:
-  /// Files of assets/shaders, which are compiled into the program: GlProgram("image.vert", "image.frag").
+  /// Files of assets/shaders, which are compiled into the program: GlProgram("image.vert", {"picture.frag", "texel.frag"}).
   /// \throws GlError with the compiler's log, whose first number is the file's line
-  GlProgram(std::string_view vertexFile, std::string_view fragmentFile);
+  GlProgram(std::string_view vertexFile, std::initializer_list<std::string_view> fragmentFiles);
   /// The same from text; `name` is for messages.
   static GlProgram fromText(std::string_view name, std::string_view vertexText, std::string_view fragmentText);
 

@@ -42,7 +42,7 @@ unsigned textureName(ImTextureID id) {
 }  // namespace
 
 GuiRenderer::GuiRenderer(ImFontAtlas& atlas)
-    : program_("gui.vert", "gui.frag"),
+    : program_("gui.vert", {"gui.frag"}),
       layout_(makeGlVertexArray()),
       vertices_(makeGlBuffer()),
       indices_(makeGlBuffer()) {

@@ -45,7 +45,10 @@ std::optional<glm::ivec2> imagePixelAt(const ImagePlacement& placement, PixelSiz
   return glm::ivec2(at);
 }
 
-ImageView::ImageView() : program_("image.vert", "image.frag"), vertices_(makeGlVertexArray()) {}
+ImageView::ImageView()
+    : pictureProgram_("image.vert", {"picture.frag", "texel.frag"}),
+      overlayProgram_("image.vert", {"overlay.frag", "texel.frag"}),
+      vertices_(makeGlVertexArray()) {}
 
 void ImageView::setImage(ImageSlot slot, PixelSize size, std::span<const Vec3> pixels) {
   images_[indexOf(slot)].upload(size, pixels);
@@ -74,27 +77,37 @@ void ImageView::draw(PixelSize framebuffer, const PixelRect& clip, const ImagePl
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   setScissor(framebuffer, clip);
-
-  program_.use();
-  const GlTexture& b = images_[1].empty() ? images_[0] : images_[1];
-  images_[0].bind(0);
-  b.bind(1);
-  (overlay_.empty() ? images_[0] : overlay_).bind(2);
-  program_.set("imageA", 0);
-  program_.set("imageB", 1);
-  program_.set("overlay", 2);
-  program_.set("framebufferHeight", static_cast<float>(framebuffer.height));
-  program_.set("origin", placement.origin);
-  program_.set("imageSize", Vec2(imageSize().width, imageSize().height));
-  program_.set("scale", placement.scale);
-  program_.set("gain", std::exp2(settings.exposure));
-  program_.set("split", images_[1].empty() ? 1.0f : settings.split);
-  program_.set("overlayOpacity", overlay_.empty() ? 0.0f : settings.overlayOpacity);
-  program_.set("channel", static_cast<int>(settings.channel));
-  program_.set("toneMapped", settings.toneMap ? 1 : 0);
-
   glBindVertexArray(vertices_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  // One image at a time: OpenGL by software looks up all images that a shader has a branch for.
+  const auto drawColumns = [&](const GlProgram& program, const GlTexture& image, const Vec2& columns) {
+    if (columns.x >= columns.y) return;
+    image.bind(0);
+    program.set("image", 0);
+    program.set("framebufferHeight", static_cast<float>(framebuffer.height));
+    program.set("origin", placement.origin);
+    program.set("imageSize", Vec2(imageSize().width, imageSize().height));
+    program.set("scale", placement.scale);
+    program.set("columns", columns);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  pictureProgram_.use();
+  pictureProgram_.set("gain", std::exp2(settings.exposure));
+  pictureProgram_.set("channel", static_cast<int>(settings.channel));
+  pictureProgram_.set("toneMapped", settings.toneMap ? 1 : 0);
+  const float split = images_[1].empty() ? 1 : settings.split;
+  drawColumns(pictureProgram_, images_[0], {0, split});
+  drawColumns(pictureProgram_, images_[1], {split, 1});
+  if (!overlay_.empty() && settings.overlayOpacity > 0) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    overlayProgram_.use();
+    overlayProgram_.set("opacity", settings.overlayOpacity);
+    drawColumns(overlayProgram_, overlay_, {0, 1});
+    glBlendFunc(GL_ONE, GL_ZERO);
+    glDisable(GL_BLEND);
+  }
+
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_SCISSOR_TEST);

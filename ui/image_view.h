@@ -65,7 +65,8 @@ class ImageView {
             const ImageViewSettings& settings) const;
 
  private:
-  GlProgram program_;
+  GlProgram pictureProgram_;
+  GlProgram overlayProgram_;
   GlVertexArrayHandle vertices_;
   GlTexture images_[2];
   GlTexture overlay_;

@@ -7,7 +7,7 @@ namespace {
 
 /// Frames that nobody asked for, by input or by an edit that was not shown yet, take at most this share of the time: OpenGL by software needs the cores that
 /// render.
-constexpr double kIdleShare = 0.1;
+constexpr double kIdleShare = 0.06;
 
 }  // namespace
 
