@@ -52,11 +52,11 @@ bool LivePicture::apply(SessionInput input) {
     return false;
   }
 
-  std::unique_ptr<PreparedScene> prepared;
+  std::shared_ptr<const PreparedScene> prepared;
   std::unique_ptr<LightSampler> sampler;
   std::unique_ptr<Film> film;
   if (newFilm) film = std::make_unique<Film>(input.settings.width, input.settings.height, input.settings.auxiliary);
-  if (newScene) prepared = execute([&] { return std::make_unique<PreparedScene>(*input.scene); });
+  if (newScene) prepared = execute([&] { return std::make_shared<const PreparedScene>(*input.scene); });
   const PreparedScene& scene = prepared ? *prepared : *prepared_;
   if (newSampler) sampler = execute([&] { return makeLightSampler(scene, input.settings); });
   auto passes =

@@ -31,6 +31,7 @@ class LivePicture {
   /// Passes of the same picture over a film of another size.
   std::unique_ptr<PassRenderer> passesOver(Film& film) const;
   const LightSampler& sampler() const { return *sampler_; }
+  const std::shared_ptr<const PreparedScene>& prepared() const { return prepared_; }
   SessionView view(std::uint64_t generation, const std::atomic<bool>& cancel) const;
 
   /// Runs a function with the threads of the arena that the parts are built on.
@@ -44,7 +45,7 @@ class LivePicture {
   ArenaNiceness niceness_;
   SessionInput input_;
   // Each refers to those above it.
-  std::unique_ptr<PreparedScene> prepared_;
+  std::shared_ptr<const PreparedScene> prepared_;
   std::unique_ptr<LightSampler> sampler_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<PassRenderer> passes_;

@@ -339,6 +339,7 @@ std::shared_ptr<Snapshot> SessionDriver::describe(const PassRenderer& passes, co
   snapshot->rays = passes.rays();
   snapshot->droppedSamples = passes.droppedSamples();
   snapshot->bad = film.badSamples();
+  snapshot->prepared = picture_.prepared();
   return snapshot;
 }
 

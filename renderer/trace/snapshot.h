@@ -5,6 +5,7 @@
 #include "renderer/base/image_io.h"
 #include "renderer/trace/film.h"
 #include "renderer/trace/noise.h"
+#include "renderer/trace/prepared_scene.h"
 #include "renderer/trace/render_settings.h"
 
 #include <cstdint>
@@ -31,6 +32,8 @@ struct Snapshot {
   NoiseEstimate noise{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   double noiseSeconds = 0;  ///< of rendering up to that look
   SamplerStatistics sampler;
+  /// For rays of whoever shows it; gone when the session has gone on to another scene.
+  std::weak_ptr<const PreparedScene> prepared;
   std::shared_ptr<const LayeredImage> layers;  ///< Film::layers() where the input asks for them; null for a preview
 };
 

@@ -1,5 +1,6 @@
 #include "ui/viewer/viewer.h"
 
+#include "renderer/scene/camera.h"
 #include "renderer/scene/recipes/recipe.h"
 #include "tests/ui/viewer_fixture.h"
 #include "ui/gl_error.h"
@@ -7,6 +8,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <mutex>
 #include <thread>
 
@@ -67,6 +69,22 @@ TEST_F(ViewerTest, DragsScrollsAndKeysMoveTheCamera) {
   const Camera copied = *viewer_->state().settings.view;
   play("key R\nkey Ctrl+V\n");
   EXPECT_LT(glm::length(viewer_->state().settings.view->position - copied.position), 1e-5f);
+}
+
+TEST_F(ViewerTest, TheFocusIsOnWhatIsUnderThePointerWhateverTheSessionDoes) {
+  play("wait idle\n");
+  std::promise<void> release;
+  const auto held = viewer_->session().inspect([&](const SessionView&) { release.get_future().wait(); });
+  play("move 300 400\nkey F\nkey Ctrl+C\n");
+  release.set_value();
+  const auto& state = viewer_->state();
+  const auto pixel = imagePixelAt(viewer_->placement(), {state.settings.width, state.settings.height}, Vec2(300, 400));
+  ASSERT_TRUE(pixel);
+  const auto hit = PreparedScene(*scene_).accel.intersect(
+      cameraRay(viewOf(*scene_, state.settings), Vec2(*pixel) + 0.5f, {state.settings.width, state.settings.height}),
+      0);
+  ASSERT_TRUE(hit);
+  EXPECT_FLOAT_EQ(nlohmann::json::parse(window_->clipboard()).at("focus").get<float>(), hit->t);
 }
 
 TEST_F(ViewerTest, EveryOverlayShowsItsValues) {

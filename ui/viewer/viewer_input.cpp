@@ -3,14 +3,11 @@
 #include "ui/viewer/viewer.h"
 
 #include <array>
-#include <chrono>
 
 #include <imgui.h>
 
 namespace cellcut {
 namespace {
-
-constexpr std::chrono::milliseconds kLongestFocus{500};  ///< longer is a window that hangs
 
 /// Pixels that a pointer may move between press and release of a click.
 constexpr float kClickSlack = 3;
@@ -210,19 +207,11 @@ void Viewer::readMouse() {
 
 void Viewer::focusAt(const Vec2& position) {
   const auto pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
-  if (!pixel) return;
-  // One ray: the session answers within a pass. While it builds a scene or looks up an overlay it does not, and the
-  // focus stays.
-  auto found = session_.inspect([pixel = *pixel](const SessionView& view) -> std::optional<float> {
-    const Ray ray =
-        cameraRay(viewOf(*view.scene, view.settings), Vec2(pixel) + 0.5f, {view.settings.width, view.settings.height});
-    const auto hit = view.accel.intersect(ray, 0);
-    return hit ? std::optional(hit->t) : std::nullopt;
-  });
-  if (found.wait_for(kLongestFocus) != std::future_status::ready) return;
-  guarded([&] {
-    if (const std::optional<float> distance = found.get()) pose_.focus = *distance;
-  });
+  const std::shared_ptr<const PreparedScene> prepared = snapshot_->prepared.lock();
+  if (!pixel || !prepared || &prepared->scene != scene_.get()) return;
+  const Ray ray =
+      cameraRay(viewOf(*scene_, state_.settings), Vec2(*pixel) + 0.5f, {snapshot_->width, snapshot_->height});
+  if (const auto hit = prepared->accel.intersect(ray, 0)) pose_.focus = hit->t;
 }
 
 }  // namespace cellcut
