@@ -1,5 +1,6 @@
 /// The verb `compare`: two pictures → their error as JSON.
 #include "app/command_line.h"
+#include "app/numbers.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
@@ -22,15 +23,12 @@ constexpr const char* kExamples =
     "Example:\n"
     "  cellcut compare noisy.exr reference.exr";
 
-std::string sizeOf(const ImageRgb& image) {
-  return std::to_string(image.width()) + "x" + std::to_string(image.height());
-}
-
 int comparePictures(const std::string& fileA, const std::string& fileB, const Console& console) {
   const ImageRgb a = readImage(fileA);
   const ImageRgb b = readImage(fileB);
   if (a.width() != b.width() || a.height() != b.height()) {
-    throw InputError(fileA, "is " + sizeOf(a) + " and " + fileB + " is " + sizeOf(b) + "; only equal sizes compare");
+    throw InputError(fileA, "is " + sizeText(a.width(), a.height()) + " and " + fileB + " is " +
+                                sizeText(b.width(), b.height()) + "; only equal sizes compare");
   }
   const ImageComparison c = compareImages(a, b);
   const nlohmann::ordered_json result = {{"mse", c.mse},      {"relmse", c.relmse}, {"epsilon", c.epsilon},

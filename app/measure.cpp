@@ -7,6 +7,7 @@
 #include "app/measure/results.h"
 #include "app/measure/scene_hash.h"
 #include "app/measure/summary.h"
+#include "app/numbers.h"
 #include "app/output.h"
 #include "app/progress.h"
 #include "app/verbs.h"
@@ -137,15 +138,11 @@ void writeImage(const Work& work, const std::string& name, const ImageRgb& pictu
 
 // ---- references
 
-std::string sizeOf(const ImageRgb& image) {
-  return std::to_string(image.width()) + "x" + std::to_string(image.height());
-}
-
 MeasureReference readReference(const fs::path& file, const RenderSettings& settings) {
   MeasureReference reference{readImage(file), std::numeric_limits<double>::quiet_NaN(), 0, 0, file};
   if (reference.picture.width() != settings.width || reference.picture.height() != settings.height) {
-    throw InputError(file.string(), "is " + sizeOf(reference.picture) + " and --size is " +
-                                        std::to_string(settings.width) + "x" + std::to_string(settings.height) +
+    throw InputError(file.string(), "is " + sizeText(reference.picture.width(), reference.picture.height()) +
+                                        " and --size is " + sizeText(settings.width, settings.height) +
                                         "; only equal sizes compare");
   }
   return reference;

@@ -45,4 +45,8 @@ double parseReal(const std::string& option, std::string_view text, RealRange ran
   return *value;
 }
 
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
 }  // namespace cellcut

@@ -1,5 +1,5 @@
 /// \file numbers.h
-/// Numbers on the command line: the whole text is the number, it is finite and in its range, or it is refused.
+/// Numbers on the command line and how they are written: the whole text is the number, it is finite and in its range, or it is refused.
 #pragma once
 
 #include <cstdint>
@@ -27,5 +27,8 @@ std::uint64_t parseWhole(const std::string& option, std::string_view text, Whole
 /// Decimal or scientific notation, finite.
 /// \throws InputError as parseWhole
 double parseReal(const std::string& option, std::string_view text, RealRange range);
+
+/// "1280x720", as --size takes it.
+std::string sizeText(int width, int height);
 
 }  // namespace cellcut

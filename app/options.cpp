@@ -99,8 +99,7 @@ void addSampling(CLI::App& verb, RenderSettings& s) {
       "Random numbers: sobol (Owen-scrambled) or independent (default sobol)");
   addText(
       verb, "--size", "WxH", [&s](const std::string& t) { parseSize(t, s); },
-      "Pixels, each side up to " + std::to_string(kMaxPictureSide) + " (default " + std::to_string(s.width) + "x" +
-          std::to_string(s.height) + ")");
+      "Pixels, each side up to " + std::to_string(kMaxPictureSide) + " (default " + sizeText(s.width, s.height) + ")");
   const auto depth = [&s](const std::string& t) { s.maxDepth = parseMaxDepth("--max-depth", t); };
   addText(verb, "--max-depth", "D", depth,
           "Times a path may scatter: 0 emitters only, 1 direct light only (default 8)");
