@@ -3,7 +3,6 @@
 #include <cassert>
 
 #ifdef __linux__
-#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #endif
@@ -12,7 +11,7 @@ namespace cellcut {
 namespace {
 
 /// The UI then wakes at once although every core is busy.
-constexpr int kLeastPriority = 19;
+constexpr int kWorkerNiceness = 19;
 
 }  // namespace
 
@@ -20,11 +19,6 @@ void setThreadNiceness([[maybe_unused]] int niceness) {
 #ifdef __linux__
   // Elsewhere this would be the process. It may only ever grow; where it cannot be set there is nothing to be done.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);
-  if (niceness >= kLeastPriority) {
-    // Of this thread, too: it then gives way at once to whoever wakes, and not at the end of its slice.
-    const sched_param none{};
-    sched_setscheduler(0, SCHED_IDLE, &none);
-  }
 #endif
 }
 
@@ -67,7 +61,7 @@ void WorkerPool::rethrow() const {
 }
 
 void WorkerPool::serve() {
-  setThreadNiceness(kLeastPriority);
+  setThreadNiceness(kWorkerNiceness);
   std::shared_ptr<Work> work;
   for (;;) {
     {

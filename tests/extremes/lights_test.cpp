@@ -2,6 +2,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/lights/light_tree.h"
 #include "renderer/trace/renderer.h"
+#include "tests/support/depth.h"
 #include "tests/support/frozen_render.h"
 #include "tests/support/nightly.h"
 #include "tests/support/probabilities.h"
@@ -185,11 +186,11 @@ TEST_P(ExtremeLights, CoincidentCollinearCoplanarOrPowersOfTwoApartHaveExactProb
   for (const Arrangement& arrangement : arrangements()) {
     SCOPED_TRACE(arrangement.name);
     const Scene scene = pointLightsAt(arrangement.positions);
-    constexpr int kPoints = 10;
+    const std::size_t anywhere = sampleShare(10);
     std::vector<ShadingPoint> points;
-    points.reserve(kPoints + 2);
+    points.reserve(anywhere + 2);
     Rng rng(8);
-    for (int i = 0; i < kPoints; ++i) points.push_back({2.0f * unitVector(rng), unitVector(rng)});
+    for (std::size_t i = 0; i < anywhere; ++i) points.push_back({2.0f * unitVector(rng), unitVector(rng)});
     points.push_back({arrangement.positions[0], {0, 1, 0}});
     points.push_back({0.5f * (arrangement.positions[0] + arrangement.positions[1]), {0, 0, 1}});
     expectSoundAt(scene, points, kReach);

@@ -23,7 +23,7 @@ constexpr int kAnyLight = 8;
 
 class LightSamplerPmf : public StrategyAndLights {
  protected:
-  static std::size_t pointCount() { return byDepth(6, 64); }
+  static std::size_t pointCount() { return sampleShare(byDepth(6, 64)); }
   /// \param check  called with lights, sampler and a point of the scene, for each number of lights
   void forEachPoint(std::span<const int> lightCounts, const auto& check) const {
     for (const int count : lightCounts) {

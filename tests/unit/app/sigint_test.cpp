@@ -3,6 +3,7 @@
 #include "renderer/base/image_io.h"
 #include "renderer/base/rng.h"
 #include "renderer/scene/recipes/recipe.h"
+#include "tests/support/depth.h"
 #include "tests/support/nightly.h"
 #include "tests/support/program_run.h"
 #include "tests/support/temporary_directory.h"
@@ -74,7 +75,7 @@ TEST_P(SigintAtAnyMoment, LeavesAWholePictureOrNone) {
   const std::string name = "picture" + GetParam();
   const fs::path picture = output_ / name;
   Rng random(2016);
-  const int runs = isNightly() ? 100 : 10;
+  const int runs = test::isSixteenth() ? 4 : isNightly() ? 100 : 10;
   int whole = 0, killed = 0;
   for (int i = 0; i < runs; ++i) {
     fs::create_directory(output_);

@@ -1,5 +1,6 @@
 #include "renderer/sampling/inspection.h"
 
+#include "tests/support/depth.h"
 #include "tests/support/shading_points.h"
 #include "tests/support/strategies.h"
 
@@ -35,6 +36,8 @@ class CutInspection : public testing::TestWithParam<std::tuple<SamplerVariant, L
     }
     sampler = makeLightSampler(variant().strategy, lights, variant().settings, pilot);
     inspector = CutInspector::of(*sampler);
+    EXPECT_GE(points.size(), 30u);
+    points.resize(sampleShare(points.size()));
   }
   static const SamplerVariant& variant() { return std::get<0>(GetParam()); }
   static LightMix mix() { return std::get<1>(GetParam()); }
@@ -49,7 +52,6 @@ class CutInspection : public testing::TestWithParam<std::tuple<SamplerVariant, L
 
 TEST_P(CutInspection, ProbabilitiesAreTheSamplersOwn) {
   ASSERT_TRUE(inspector);
-  ASSERT_GE(points.size(), 30u);
   for (const ShadingPoint& point : points) {
     double chosen = 0, sumOfPmf = 0;
     for (const ClusterInspection& cluster : inspector->inspect(point).clusters) {
