@@ -7,7 +7,7 @@
 namespace cellcut {
 
 void MemoryWindow::present(const GlFramebuffer& /*picture*/) {
-  glFinish();  // as a display does: the loop knows what a frame takes
+  glFinish();
 }
 
 void MemoryWindow::waitEvents(double seconds) {

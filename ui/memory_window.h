@@ -19,7 +19,7 @@ class MemoryWindow : public Window {
   void wake() noexcept override;
   std::string clipboard() const override { return clipboard_; }
   void setClipboard(const std::string& text) override { clipboard_ = text; }
-  /// The picture stays where it is; OpenGL is told to draw it now, as a window on a display does.
+  /// The picture stays where it is.
   void present(const GlFramebuffer& /*picture*/) override;
   bool shouldClose() const override { return shouldClose_; }
   void requestClose() override { shouldClose_ = true; }

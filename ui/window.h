@@ -70,8 +70,10 @@ class Window {
   virtual std::string clipboard() const = 0;
   virtual void setClipboard(const std::string& text) = 0;
 
-  /// Shows the picture, 1:1 from its top left. In memory there is nobody to see it: returns at once.
+  /// Shows the picture, 1:1 from its top left, when OpenGL has drawn it. In memory there is nobody to see it.
   virtual void present(const GlFramebuffer& picture) = 0;
+  /// How long the last present() waited for the display after that.
+  virtual double swapSeconds() const { return 0; }
 
   /// The person asked to close it, or requestClose() did.
   virtual bool shouldClose() const = 0;

@@ -3,6 +3,8 @@
 #include "ui/glfw_keys.h"
 #include "ui/window_kinds.h"
 
+#include <chrono>
+
 #include <epoxy/gl.h>
 
 #define GLFW_INCLUDE_NONE
@@ -101,8 +103,12 @@ class GlfwWindow final : public Window {
     glBlitFramebuffer(0, from.height - height, width, from.height, 0, to.height - height, width, to.height,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     checkGl("showing the picture");
+    glFinish();
+    const auto drawn = std::chrono::steady_clock::now();
     glfwSwapBuffers(window_);
+    swapSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - drawn).count();
   }
+  double swapSeconds() const override { return swapSeconds_; }
 
   bool shouldClose() const override { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
   void requestClose() override { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
@@ -146,6 +152,7 @@ class GlfwWindow final : public Window {
   }
 
   GlfwLibrary library_;
+  double swapSeconds_ = 0;
   GLFWwindow* window_ = nullptr;
 };
 

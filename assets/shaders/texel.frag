@@ -10,7 +10,7 @@ uniform float scale;              // framebuffer pixels per pixel of the picture
 uniform vec2 columns;             // from and to which share of the picture's width is drawn
 
 // Premultiplied. At and above 1:1 that of one texel; below, the mean over the area that the framebuffer's pixel covers,
-// of at most about eight texels each way. Discards what is outside `columns`.
+// of at most about eight texels each way. Discards what is beside the picture or outside `columns`.
 vec4 shownTexel() {
   vec2 position = vec2(gl_FragCoord.x, framebufferHeight - gl_FragCoord.y);
   vec2 at = (position - origin) / (scale * imageSize);

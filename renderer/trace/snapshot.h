@@ -32,7 +32,7 @@ struct Snapshot {
   NoiseEstimate noise{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   double noiseSeconds = 0;  ///< of rendering up to that look
   SamplerStatistics sampler;
-  /// For rays of whoever shows it; gone when the session has gone on to another scene.
+  /// For rays of whoever shows it; gone when the session has gone on to another scene. Who locks it meanwhile owns it.
   std::weak_ptr<const PreparedScene> prepared;
   std::shared_ptr<const LayeredImage> layers;  ///< Film::layers() where the input asks for them; null for a preview
 };

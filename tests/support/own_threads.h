@@ -7,7 +7,8 @@
 namespace cellcut::test {
 
 /// While it lives under ThreadSanitizer, TBB starts no threads: the detector does not see how they hand over their work
-/// and reports races where there are none. What std::thread does is then all that it judges, without suppressions.
+/// and reports races where there are none. What std::thread does is then all that it judges; tsan.supp leaves out only
+/// what such libraries do to memory of their own.
 /// Elsewhere it does nothing.
 class OnlyOwnThreads {
 #ifdef __SANITIZE_THREAD__

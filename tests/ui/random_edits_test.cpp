@@ -127,7 +127,7 @@ void RandomEdits::editView() {
 }
 
 void RandomEdits::editWindow() {
-  switch (below(4)) {
+  switch (below(5)) {
     case 0:
       window_->resize({260 + below(80), 160 + below(80)});
       break;
@@ -139,6 +139,10 @@ void RandomEdits::editWindow() {
       break;
     case 3:
       press(std::array{Key::kF1, Key::kF2, Key::kT, Key::kPeriod}[rng_.below(4)]);
+      break;
+    case 4:
+      window_->post(MouseMove{Vec2(below(260), below(160))});
+      press(Key::kF);
       break;
   }
 }

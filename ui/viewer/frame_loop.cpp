@@ -5,8 +5,7 @@
 namespace cellcut {
 namespace {
 
-/// Frames that nobody asked for, by input or by an edit that was not shown yet, take at most this share of the time: OpenGL by software needs the cores that
-/// render.
+/// Frames that nobody asked for take at most this share of the time: OpenGL by software needs the cores that render.
 constexpr double kIdleShare = 0.06;
 
 }  // namespace
@@ -18,15 +17,16 @@ void FrameLoop::step() {
   if (sleep > 0 && !window_.hasInput()) {
     window_.waitEvents(sleep);
     const double rest = frameSeconds_ * (1 / kIdleShare - 1);
-    while (!window_.hasInput() && !window_.shouldClose() && !viewer_.awaitsPicture() && secondsSince(ended_) < rest) {
-      window_.waitEvents(rest - std::min(rest, secondsSince(ended_)));
+    while (!window_.hasInput() && !window_.shouldClose() && !viewer_.hasNewsOfEdits() && secondsSince(ended_) < rest) {
+      window_.waitEvents(std::min(sleep, rest - std::min(rest, secondsSince(ended_))));
     }
   }
   const double elapsed = secondsSince(began_);
   began_ = Clock::now();
   viewer_.frame(elapsed);
   ended_ = Clock::now();
-  frameSeconds_ = std::chrono::duration<double>(ended_ - began_).count();
+  // Waiting for the display costs nobody anything.
+  frameSeconds_ = std::chrono::duration<double>(ended_ - began_).count() - window_.swapSeconds();
 }
 
 }  // namespace cellcut

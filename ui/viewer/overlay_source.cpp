@@ -1,5 +1,7 @@
 #include "ui/viewer/overlay_source.h"
 
+#include "ui/viewer/is_ready.h"
+
 #include <atomic>
 #include <chrono>
 
@@ -139,8 +141,12 @@ std::future<LayeredImage> OverlaySource::layers(RenderSession& session) const {
   });
 }
 
+bool OverlaySource::ready() const {
+  return isReady(pending_);
+}
+
 std::optional<OverlayPicture> OverlaySource::take() {
-  if (!busy() || pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  if (!ready()) return std::nullopt;
   return pending_.get();
 }
 

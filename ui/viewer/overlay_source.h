@@ -42,6 +42,8 @@ class OverlaySource {
   /// What came in since the last call; nothing came of a request that was stopped.
   std::optional<OverlayPicture> take();
   bool busy() const { return pending_.valid(); }
+  /// Whether take() has one.
+  bool ready() const;
   /// Until the request is answered: for scripts and screenshots.
   void wait() const;
 

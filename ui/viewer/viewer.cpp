@@ -81,6 +81,11 @@ bool Viewer::settled() const {
          !gui_.inputPending() && snapshot_->generation >= generation_ && (!overlayWanted() || overlayIsCurrent());
 }
 
+bool Viewer::hasNewsOfEdits() const {
+  return snapshot_->generation < generation_ || isReady(loading_) || isReady(loadingReference_) || isReady(saving_) ||
+         overlays_.ready();
+}
+
 bool Viewer::atRest() const {
   if (maker_.busy() || trials_.busy() || convergence_.busy() || secondConvergence_.busy()) return false;
   if (duel_ && !state_.paused) {

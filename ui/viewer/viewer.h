@@ -77,8 +77,9 @@ class Viewer {
   ImagePlacement placement() const { return placement_; }
   /// Whether the snapshot that is shown is of the newest edit and nothing is being loaded or looked up.
   bool settled() const;
-  /// Whether an edit has no picture yet.
-  bool awaitsPicture() const { return snapshot_->generation < generation_; }
+  /// Whether the next frame may show what somebody waits for: an edit has no picture yet, or what was loaded, saved or
+  /// looked up is there.
+  bool hasNewsOfEdits() const;
   /// Whether nothing is left to do: no pass, no turn of a duel, no reference, no measurement.
   bool atRest() const;
   const Reference& reference() const { return reference_; }

@@ -148,8 +148,9 @@ void Viewer::recordKeys() {
     if (!gui_.keyPressed(key) || (gui_.wantsKeyboard() && !isFunctionKey(key)) || isModifier(key)) continue;
     const bool control = gui_.controlDown();
     if (!control && kFlightKeys.find(keyName(key)) != std::string_view::npos && keyName(key).size() == 1) continue;
-    if (key == Key::kSpace || (control && key == Key::kV)) continue;  // view() says what came of them
-    if ((key == Key::kF || key == Key::kX) && !control) {             // mean what is under the pointer
+    // view() says what came of them.
+    if (key == Key::kSpace || (control && key == Key::kV) || (!control && key == Key::kF)) continue;
+    if (key == Key::kX && !control) {  // means what is under the pointer
       recorder_->beforePosition(!state_.paused);
       record({"move", exactNumber(mousePosition().x), exactNumber(mousePosition().y)});
     }
@@ -206,12 +207,16 @@ void Viewer::readMouse() {
 }
 
 void Viewer::focusAt(const Vec2& position) {
-  const auto pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
+  const PixelSize rendered{snapshot_->width, snapshot_->height};
+  if (rendered.empty()) return;
+  const auto pixel = imagePixelAt(fitImage(rendered, area_), rendered, position);
   const std::shared_ptr<const PreparedScene> prepared = snapshot_->prepared.lock();
   if (!pixel || !prepared || &prepared->scene != scene_.get()) return;
-  const Ray ray =
-      cameraRay(viewOf(*scene_, state_.settings), Vec2(*pixel) + 0.5f, {snapshot_->width, snapshot_->height});
-  if (const auto hit = prepared->accel.intersect(ray, 0)) pose_.focus = hit->t;
+  const Ray ray = cameraRay(viewOf(*scene_, state_.settings), Vec2(*pixel) + 0.5f, {rendered.width, rendered.height});
+  const auto hit = prepared->accel.intersect(ray, 0);
+  if (!hit) return;
+  pose_.focus = hit->t;
+  if (recorder_) recorder_->view(pose());
 }
 
 }  // namespace cellcut
