@@ -75,13 +75,12 @@ std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t start) {
     hash = (hash ^ word) * kPrime;
     hash ^= hash >> 32;  // else a word's upper bits would only ever reach the hash's upper bits
   };
-  std::size_t at = 0;
-  for (; at + 8 <= bytes.size(); at += 8) {
+  for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
     std::uint64_t word;
-    std::memcpy(&word, bytes.data() + at, 8);
+    std::memcpy(&word, bytes.data(), 8);
     mix(word);
   }
-  for (; at < bytes.size(); ++at) mix(std::to_integer<std::uint64_t>(bytes[at]));
+  for (const std::byte byte : bytes) mix(std::to_integer<std::uint64_t>(byte));
   return hash;
 }
 

@@ -203,7 +203,9 @@ void RandomEdits::comeToRest() {
   if (state.duel) state.settings.seed += 100;
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
   for (int quiet = 0; quiet < 5; ++quiet) {
-    // Anew in each frame: keys that were pressed are still being read.
+    // Anew in each frame: keys that were pressed are still being read. What the pointer rests on may explain itself over
+    // the picture.
+    window_->post(MouseLeave{});
     state.duel = state.paused = state.showHelp = false;
     state.overlay = {};
     state.pick.reset();

@@ -21,13 +21,16 @@ void explain(const char* tooltip) {
   if (tooltip && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tooltip);
 }
 
-/// The name goes before the field, where a narrow panel never cuts it off, or above it where it is too long for that.
-void nameOfField(const char* label) {
+/// The name goes before the field, where a narrow panel never cuts it off, or above it where one of them is too long for
+/// that.
+/// \param least  width that the field needs, framebuffer pixels
+void nameOfField(const char* label, float least = 0) {
   const float column = 0.42f * ImGui::GetWindowWidth();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   const float end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
-  if (end + ImGui::GetStyle().ItemInnerSpacing.x <= column) ImGui::SameLine(column);
+  const bool fits = column + least <= ImGui::GetWindowContentRegionMax().x;
+  if (fits && end + ImGui::GetStyle().ItemInnerSpacing.x <= column) ImGui::SameLine(column);
   ImGui::SetNextItemWidth(-1);
 }
 
@@ -124,8 +127,9 @@ bool Widgets::number(const char* label, double& value, const char* tooltip) {
 }
 
 bool Widgets::choice(const char* label, int& index, std::span<const std::string_view> names, const char* tooltip) {
-  nameOfField(label);
   const std::string current(names[static_cast<std::size_t>(index)]);
+  const float arrow = ImGui::GetFrameHeight();
+  nameOfField(label, ImGui::CalcTextSize(current.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + arrow);
   const bool open = ImGui::BeginCombo(hidden(label).c_str(), current.c_str(), ImGuiComboFlags_HeightLarge);
   remember(WidgetItem::Kind::kChoice, label, current);
   explain(open ? nullptr : tooltip);
