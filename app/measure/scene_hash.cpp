@@ -45,10 +45,7 @@ void add(Hash& hash, const Material& m) {
                 static_cast<float>(m.alphaMode)});
   hash.vector(m.specularColor);
   hash.vector(m.emission);
-  for (const TextureSlot* slot : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.specularTexture,
-                                  &m.specularColorTexture, &m.normalTexture, &m.emissionTexture}) {
-    add(hash, *slot);
-  }
+  for (const TextureSlot& slot : m.slots ? *m.slots : TextureSlots{}) add(hash, slot);
 }
 
 void add(Hash& hash, const Mesh& mesh) {

@@ -133,7 +133,7 @@ namespace {
 float meanEmission(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
   const Material& material = scene.materials[indexOf(mesh.material)];
   const double factor = luminance(glm::dvec3(material.emission));
-  const bool textured = material.emissionTexture.texture.has_value();
+  const bool textured = material.slot(TextureUse::kEmission).texture.has_value();
   const bool covered = material.alphaMode != AlphaMode::kOpaque;
   if (!textured && !covered) return static_cast<float>(factor);
 

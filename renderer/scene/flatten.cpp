@@ -215,7 +215,8 @@ std::size_t finishMesh(const std::vector<Material>& materials, Mesh& mesh) {
   for (std::uint8_t set = 0; set < 2; ++set) {
     if (mesh.texCoords[set].empty() && usesTexCoords(material, set)) mesh.texCoords[set].resize(mesh.positions.size());
   }
-  if (material.normalTexture.texture && mesh.tangents.empty()) computeTangents(mesh, material.normalTexture);
+  const TextureSlot& normalMap = material.slot(TextureUse::kNormal);
+  if (normalMap.texture && mesh.tangents.empty()) computeTangents(mesh, normalMap);
   return dropped;
 }
 
@@ -291,12 +292,8 @@ void warnOnce(Scene& scene, const std::string& warning) {
 }
 
 bool usesTexCoords(const Material& material, std::uint8_t set) {
-  for (const TextureSlot* slot :
-       {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.specularTexture,
-        &material.specularColorTexture, &material.normalTexture, &material.emissionTexture}) {
-    if (slot->texture && slot->texCoord == set) return true;
-  }
-  return false;
+  return material.slots && std::any_of(material.slots->begin(), material.slots->end(),
+                                       [&](const TextureSlot& slot) { return slot.texture && slot.texCoord == set; });
 }
 
 Scene flatten(SceneDraft draft) {

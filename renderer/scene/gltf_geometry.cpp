@@ -123,7 +123,7 @@ void clampColors(std::vector<Vec4>& colors) {
 void readAttributes(const Source& source, const Material& material, std::size_t vertexCount,
                     const std::vector<std::uint32_t>& used, Part& part) {
   part.normals = readAttribute<3>(source, source.attribute("NORMAL", {TINYGLTF_TYPE_VEC3}), vertexCount, used);
-  if (!part.normals.empty() && material.normalTexture.texture) {
+  if (!part.normals.empty() && material.slot(TextureUse::kNormal).texture) {
     part.tangents = readAttribute<4>(source, source.attribute("TANGENT", {TINYGLTF_TYPE_VEC4}), vertexCount, used);
   }
   const char* const texCoordNames[] = {"TEXCOORD_0", "TEXCOORD_1"};

@@ -47,10 +47,10 @@ void readMetallicRoughness(const Reader& reader, const tinygltf::PbrMetallicRoug
   const glm::dvec4 color = vectorOr<4>(pbr.baseColorFactor, glm::dvec4(1), reader.place + ": baseColorFactor");
   material.baseColor = {reader.clampedColor(glm::dvec3(color), 1, "baseColorFactor"),
                         static_cast<float>(reader.clamped(color.w, 0, 1, "baseColorFactor"))};
-  material.baseColorTexture = reader.slot(pbr.baseColorTexture);
+  material.setSlot(TextureUse::kBaseColor, reader.slot(pbr.baseColorTexture));
   material.metallic = static_cast<float>(reader.clamped(pbr.metallicFactor, 0, 1, "metallicFactor"));
   material.roughness = static_cast<float>(reader.clamped(pbr.roughnessFactor, 0, 1, "roughnessFactor"));
-  material.metallicRoughnessTexture = reader.slot(pbr.metallicRoughnessTexture);
+  material.setSlot(TextureUse::kMetallicRoughness, reader.slot(pbr.metallicRoughnessTexture));
 }
 
 void readSpecular(const Reader& reader, const tinygltf::ExtensionMap& extensions, Material& material) {
@@ -62,10 +62,10 @@ void readSpecular(const Reader& reader, const tinygltf::ExtensionMap& extensions
   if (const tinygltf::Value* specular = extension(extensions, "KHR_materials_specular")) {
     const double strength = numberOr(*specular, "specularFactor", 1, reader.place);
     material.specular = static_cast<float>(reader.clamped(strength, 0, 1, "specularFactor"));
-    material.specularTexture = reader.slot(*specular, "specularTexture");
+    material.setSlot(TextureUse::kSpecular, reader.slot(*specular, "specularTexture"));
     material.specularColor = reader.clampedColor(
         numbersOr<3>(*specular, "specularColorFactor", glm::dvec3(1), reader.place), kMaxFloat, "specularColorFactor");
-    material.specularColorTexture = reader.slot(*specular, "specularColorTexture");
+    material.setSlot(TextureUse::kSpecularColor, reader.slot(*specular, "specularColorTexture"));
   }
 }
 
@@ -82,7 +82,7 @@ void readEmission(const Reader& reader, const tinygltf::Material& source, Materi
   if (!isFinite(material.emission)) {
     throw InputError(reader.place, "\"" + source.name + "\" emits more than a float can hold; lower its emission");
   }
-  material.emissionTexture = reader.slot(source.emissiveTexture);
+  material.setSlot(TextureUse::kEmission, reader.slot(source.emissiveTexture));
 }
 
 AlphaMode alphaModeOf(const std::string& name, const std::string& place) {
@@ -98,7 +98,7 @@ Material readMaterial(const Reader& reader, const tinygltf::Material& source) {
   readMetallicRoughness(reader, source.pbrMetallicRoughness, material);
   readSpecular(reader, source.extensions, material);
   readEmission(reader, source, material);
-  material.normalTexture = reader.slot(source.normalTexture);
+  material.setSlot(TextureUse::kNormal, reader.slot(source.normalTexture));
   material.normalScale = static_cast<float>(source.normalTexture.scale);
   if (!std::isfinite(material.normalScale)) throw InputError(reader.place, "the normal texture's scale is too large");
   material.alphaMode = alphaModeOf(source.alphaMode, reader.place);

@@ -18,17 +18,33 @@ auto interpolate(const Attribute& values, const SurfaceCoordinates& at) {
   return b0 * values[t.x] + at.barycentric.x * values[t.y] + at.barycentric.y * values[t.z];
 }
 
+TexelEncoding encodingOf(TextureUse use) {
+  switch (use) {
+    case TextureUse::kBaseColor:
+    case TextureUse::kSpecularColor:
+    case TextureUse::kEmission:
+      return TexelEncoding::kSrgb;
+    case TextureUse::kMetallicRoughness:
+    case TextureUse::kSpecular:
+    case TextureUse::kNormal:
+      break;
+  }
+  return TexelEncoding::kLinear;
+}
+
 /// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent.
-Vec4 slotValue(const Scene& scene, const TextureSlot& slot, TexelEncoding encoding, const SurfaceCoordinates& at) {
-  if (!kCanHaveTextures || !slot.texture) return Vec4(1.0f);
+Vec4 slotValue(const Scene& scene, TextureUse use, const SurfaceCoordinates& at) {
+  if (!kCanHaveTextures) return Vec4(1.0f);
+  const TextureSlot& slot = materialOf(scene, at).slot(use);
+  if (!slot.texture) return Vec4(1.0f);
   const std::vector<Vec2>& texCoords = at.mesh->texCoords[slot.texCoord];
   const Vec2 uv = texCoords.empty() ? Vec2(0.0f) : interpolate(texCoords, at);
-  return lookup(scene, scene.textures[indexOf(*slot.texture)], encoding, slotUv(slot, uv));
+  return lookup(scene, scene.textures[indexOf(*slot.texture)], encodingOf(use), slotUv(slot, uv));
 }
 
 Vec4 baseColorAlpha(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
-  Vec4 color = material.baseColor * slotValue(scene, material.baseColorTexture, TexelEncoding::kSrgb, at);
+  Vec4 color = material.baseColor * slotValue(scene, TextureUse::kBaseColor, at);
   if (!at.mesh->colors.empty()) color *= interpolate(at.mesh->colors, at);
   return color;
 }
@@ -81,8 +97,8 @@ bool anyTexel(const TexelFootprint& area, const auto& lights) {
 
 Vec3 emission(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
-  if (!kCanHaveTextures || !material.emissionTexture.texture) return material.emission;
-  return material.emission * Vec3(slotValue(scene, material.emissionTexture, TexelEncoding::kSrgb, at));
+  if (!kCanHaveTextures || !material.slots) return material.emission;
+  return material.emission * Vec3(slotValue(scene, TextureUse::kEmission, at));
 }
 
 float coverage(const Scene& scene, const SurfaceCoordinates& at) {
@@ -105,14 +121,14 @@ Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3&
   Vec3 normal = interpolated / length;
 
   const Material& material = materialOf(scene, at);
-  if (kCanHaveTextures && material.normalTexture.texture && !at.mesh->tangents.empty()) {
+  if (kCanHaveTextures && material.slot(TextureUse::kNormal).texture && !at.mesh->tangents.empty()) {
     const Vec4 tangent4 = interpolate(at.mesh->tangents, at);
     const Vec3 inPlane = Vec3(tangent4) - glm::dot(Vec3(tangent4), normal) * normal;
     const float tangentLength = glm::length(inPlane);
     if (tangentLength > 0) {
       const Vec3 tangent = inPlane / tangentLength;
       const Vec3 bitangent = (tangent4.w < 0 ? -1.0f : 1.0f) * glm::cross(normal, tangent);
-      const Vec3 texel = Vec3(slotValue(scene, material.normalTexture, TexelEncoding::kLinear, at)) * 2.0f - Vec3(1);
+      const Vec3 texel = Vec3(slotValue(scene, TextureUse::kNormal, at)) * 2.0f - Vec3(1);
       const Vec3 bent =
           texel.x * material.normalScale * tangent + texel.y * material.normalScale * bitangent + texel.z * normal;
       const float bentLength = glm::length(bent);
@@ -131,15 +147,14 @@ Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
   const Vec3 color = baseColor(scene, at);
   if (!kCanHaveGgx || !canReflect(material)) return Bsdf(BsdfParameters{.diffuse = color});
-  const Vec4 metallicRoughness = slotValue(scene, material.metallicRoughnessTexture, TexelEncoding::kLinear, at);
+  const Vec4 metallicRoughness = slotValue(scene, TextureUse::kMetallicRoughness, at);
   const float metallic = std::clamp(material.metallic * metallicRoughness.z, 0.0f, 1.0f);
-  const float specular = material.specular * slotValue(scene, material.specularTexture, TexelEncoding::kLinear, at).w;
+  const float specular = material.specular * slotValue(scene, TextureUse::kSpecular, at).w;
   const float reflectance = (material.ior - 1) / (material.ior + 1);
-  const Vec3 dielectricF0 =
-      glm::min(Vec3(reflectance * reflectance) * material.specularColor *
-                   Vec3(slotValue(scene, material.specularColorTexture, TexelEncoding::kSrgb, at)),
-               Vec3(1.0f)) *
-      specular;
+  const Vec3 dielectricF0 = glm::min(Vec3(reflectance * reflectance) * material.specularColor *
+                                         Vec3(slotValue(scene, TextureUse::kSpecularColor, at)),
+                                     Vec3(1.0f)) *
+                            specular;
 
   BsdfParameters parameters;
   parameters.diffuse = color * (1 - metallic);
@@ -154,8 +169,8 @@ Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
 int emissionResolution(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
   const Material& material = scene.materials[indexOf(mesh.material)];
   float longest = 1;
-  for (const TextureSlot* slot : {&material.emissionTexture, &material.baseColorTexture}) {
-    if (const auto area = footprint(scene, *slot, mesh, triangle)) {
+  for (const TextureUse use : {TextureUse::kEmission, TextureUse::kBaseColor}) {
+    if (const auto area = footprint(scene, material.slot(use), mesh, triangle)) {
       for (std::size_t k = 0; k < 3; ++k) {
         longest = std::max(longest, glm::length(area->corners[(k + 1) % 3] - area->corners[k]));
       }
@@ -167,7 +182,7 @@ int emissionResolution(const Scene& scene, const Mesh& mesh, std::uint32_t trian
 
 bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
   const Material& material = scene.materials[indexOf(mesh.material)];
-  const auto emissive = footprint(scene, material.emissionTexture, mesh, triangle);
+  const auto emissive = footprint(scene, material.slot(TextureUse::kEmission), mesh, triangle);
   const auto lit = [&](const ImageRgba8::value_type& t) {
     return (material.emission.x > 0 && t.x) || (material.emission.y > 0 && t.y) || (material.emission.z > 0 && t.z);
   };

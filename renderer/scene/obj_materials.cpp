@@ -65,9 +65,10 @@ Vec3 colorOf(const tinyobj::real_t (&c)[3]) {
   return {clamped(c[0], 0, 1), clamped(c[1], 0, 1), clamped(c[2], 0, 1)};
 }
 
-/// GGX alpha with the lobe of a Blinn-Phong exponent: α² = 2 / (Ns + 2). Source: Walter et al. 2007, section 5.2.
+/// GGX alpha with the lobe of a Blinn-Phong exponent: α² = 2 / (Ns + 2). Source: Walter et al. 2007, section 5.2. A mirror
+/// for an exponent that is infinite; NaN becomes 0.
 float roughnessOf(double exponent) {
-  const double alphaSquared = 2 / (std::clamp(exponent, 0.0, 1e6) + 2);
+  const double alphaSquared = 2 / (std::max(0.0, exponent) + 2);
   return static_cast<float>(std::sqrt(std::sqrt(alphaSquared)));
 }
 
@@ -84,14 +85,15 @@ Material materialOf(const tinyobj::material_t& source, const std::string& place,
   material.name = source.name;
   material.metallic = 0;
   material.baseColor = {colorOf(source.diffuse), clamped(source.dissolve, 0, 1)};
-  material.baseColorTexture = pictures.slot(source.diffuse_texname, source.diffuse_texopt.clamp);
+  material.setSlot(TextureUse::kBaseColor, pictures.slot(source.diffuse_texname, source.diffuse_texopt.clamp));
   // Illumination model 1 has no highlight whatever Ks says. Ks of 1 is a dielectric's full reflection, 4 % at normal
   // incidence.
   material.specular = source.illum == 1 ? 0.0f : maxComponent(colorOf(source.specular));
   material.roughness = material.specular > 0 ? roughnessOf(source.shininess) : 1.0f;
   material.emission = emissionOf(source, place);
-  material.emissionTexture = pictures.slot(source.emissive_texname, source.emissive_texopt.clamp);
-  if (material.emissionTexture.texture && isBlack(material.emission)) material.emission = Vec3(1);
+  const TextureSlot picture = pictures.slot(source.emissive_texname, source.emissive_texopt.clamp);
+  material.setSlot(TextureUse::kEmission, picture);
+  if (picture.texture && isBlack(material.emission)) material.emission = Vec3(1);
   if (material.baseColor.w < 1) material.alphaMode = AlphaMode::kBlend;
   material.doubleSided = isBlack(material.emission);
   return material;
@@ -111,7 +113,7 @@ std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector
   std::string warnings, errors;
   ByteStream stream(bytes);
   tinyobj::LoadMtl(&indices, &materials, &stream, &warnings, &errors);
-  if (!errors.empty()) throw InputError(name, errors.substr(0, errors.find('\n')));
+  if (!errors.empty()) throw InputError(name, errors.substr(0, errors.find('\n')) + "; export the file again");
 
   Pictures pictures(folder, scene);
   const std::size_t first = scene.materials.size();

@@ -16,6 +16,13 @@ std::size_t meshBytes(const Mesh& mesh) {
 
 }  // namespace
 
+void Material::setSlot(TextureUse use, const TextureSlot& slot) {
+  if (!slot.texture) return;
+  TextureSlots changed = slots ? *slots : TextureSlots{};
+  changed[static_cast<std::size_t>(use)] = slot;
+  slots = std::make_shared<const TextureSlots>(changed);
+}
+
 std::size_t Scene::triangleCount() const {
   std::size_t count = 0;
   for (const Mesh& mesh : meshes) count += mesh.triangles.size();
@@ -25,6 +32,7 @@ std::size_t Scene::triangleCount() const {
 std::size_t Scene::bytes() const {
   std::size_t bytes = vectorBytes(meshes) + vectorBytes(materials) + vectorBytes(textures) + vectorBytes(pointLights) +
                       vectorBytes(spotLights) + vectorBytes(directionalLights);
+  for (const Material& material : materials) bytes += material.slots ? sizeof(TextureSlots) : 0;
   for (const Mesh& mesh : meshes) bytes += meshBytes(mesh);
   for (const ImageRgba8& image : texels) bytes += image.bytes();
   if (environment) bytes += environment->radiance.bytes();

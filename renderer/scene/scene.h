@@ -50,30 +50,41 @@ struct TextureSlot {
   Vec2 uvOffset{0.0f};
 };
 
+/// What a material's textures say, each in the channels and the encoding that glTF gives it.
+enum class TextureUse : std::uint8_t {
+  kBaseColor,          ///< sRGB, alpha linear
+  kMetallicRoughness,  ///< linear; G roughness, B metallic
+  kSpecular,           ///< linear; A
+  kSpecularColor,      ///< sRGB
+  kNormal,             ///< linear, tangent space
+  kEmission            ///< sRGB
+};
+using TextureSlots = std::array<TextureSlot, 6>;  ///< by TextureUse
+inline const TextureSlot kNoTexture;
+
 enum class AlphaMode : std::uint8_t { kOpaque, kMask, kBlend };
 
 /// glTF 2.0 metallic-roughness with KHR_materials_specular, _ior, _emissive_strength and _unlit.
-/// A slot's texel multiplies the factor beside it, channel for channel as the specification says.
+/// A slot's texel multiplies the factor of its name, channel for channel as the specification says.
 struct Material {
   std::string name;
-  Vec4 baseColor{1.0f};                  ///< linear RGB in [0, 1], alpha = coverage
-  TextureSlot baseColorTexture;          ///< sRGB, alpha linear
-  float metallic = 1;                    ///< [0, 1]
-  float roughness = 1;                   ///< [0, 1]; GGX alpha = roughness²
-  TextureSlot metallicRoughnessTexture;  ///< linear; G roughness, B metallic
-  float specular = 1;                    ///< strength of the dielectric reflection, F90
-  TextureSlot specularTexture;           ///< linear; A
-  Vec3 specularColor{1.0f};              ///< tint of F0
-  TextureSlot specularColorTexture;      ///< sRGB
-  float ior = 1.5f;                      ///< F0 = ((ior − 1) / (ior + 1))²; 0 means F0 = 1 (KHR_materials_ior)
-  TextureSlot normalTexture;             ///< linear, tangent space
+  Vec4 baseColor{1.0f};      ///< linear RGB in [0, 1], alpha = coverage
+  float metallic = 1;        ///< [0, 1]
+  float roughness = 1;       ///< [0, 1]; GGX alpha = roughness²
+  float specular = 1;        ///< strength of the dielectric reflection, F90
+  Vec3 specularColor{1.0f};  ///< tint of F0
+  float ior = 1.5f;          ///< F0 = ((ior − 1) / (ior + 1))²; 0 means F0 = 1 (KHR_materials_ior)
   float normalScale = 1;
-  Vec3 emission{0.0f};          ///< W/(m² sr): emissiveFactor · emissiveStrength
-  TextureSlot emissionTexture;  ///< sRGB
+  Vec3 emission{0.0f};  ///< W/(m² sr): emissiveFactor · emissiveStrength
   AlphaMode alphaMode = AlphaMode::kOpaque;
-  float alphaCutoff = 0.5f;  ///< of kMask
-  bool doubleSided = false;  ///< also: emits from both sides
-  bool unlit = false;        ///< shows baseColor as radiance, scatters nothing, is no light
+  float alphaCutoff = 0.5f;                   ///< of kMask
+  bool doubleSided = false;                   ///< also: emits from both sides
+  bool unlit = false;                         ///< shows baseColor as radiance, scatters nothing, is no light
+  std::shared_ptr<const TextureSlots> slots;  ///< null: none has a texture
+
+  const TextureSlot& slot(TextureUse use) const { return slots ? (*slots)[static_cast<std::size_t>(use)] : kNoTexture; }
+  /// A slot without a texture changes nothing.
+  void setSlot(TextureUse use, const TextureSlot& slot);
 };
 
 /// Leaves 16 bytes after the last element, as Embree needs of a vertex buffer that it shares with us.

@@ -24,7 +24,7 @@ bool hasExactIrradiance(const Lights& lights, LightId light) {
   const Scene& scene = lights.scene();
   const TriangleLight& triangle = lights.triangles()[lights.indexInKind(light)];
   const Material& material = scene.materials[indexOf(scene.meshes[indexOf(triangle.mesh)].material)];
-  return !material.emissionTexture.texture && material.alphaMode == AlphaMode::kOpaque;
+  return !material.slot(TextureUse::kEmission).texture && material.alphaMode == AlphaMode::kOpaque;
 }
 
 }  // namespace

@@ -126,8 +126,8 @@ TEST_F(GltfMaterials, DecodesEachPictureOnceAndOnlyThoseInUse) {
   EXPECT_EQ(scene.texels.size(), 1u);
   EXPECT_EQ(scene.texels[0].at(0, 0), (glm::vec<4, std::uint8_t>(1, 2, 3, 4)));
   ASSERT_EQ(scene.textures.size(), 2u);
-  const Texture& emission = scene.textures[indexOf(*scene.materials[0].emissionTexture.texture)];
-  const Texture& normal = scene.textures[indexOf(*scene.materials[0].normalTexture.texture)];
+  const Texture& emission = scene.textures[indexOf(*scene.materials[0].slot(TextureUse::kEmission).texture)];
+  const Texture& normal = scene.textures[indexOf(*scene.materials[0].slot(TextureUse::kNormal).texture)];
   EXPECT_EQ(emission.wrapS, Wrap::kRepeat);
   EXPECT_FALSE(emission.nearest);
   EXPECT_EQ(normal.wrapS, Wrap::kClamp);
@@ -151,7 +151,7 @@ TEST_F(GltfMaterials, TextureTransformsScaleThenTurnThenShift) {
                            {"extensions",
                             {{"KHR_texture_transform",
                               {{"offset", {10, 20}}, {"rotation", quarter}, {"scale", {2, 3}}, {"texCoord", 1}}}}}}}});
-  const TextureSlot slot = load(file).materials[0].emissionTexture;
+  const TextureSlot slot = load(file).materials[0].slot(TextureUse::kEmission);
   EXPECT_EQ(slot.texCoord, 1);
   // Counter-clockwise as seen, with v down: u goes up to −v, v goes to +u.
   const Vec2 u = slotUv(slot, {1, 0}), v = slotUv(slot, {0, 1});

@@ -42,7 +42,7 @@ TEST(Accel, KnowsWhereAMinuteTriangleIsHit) {
     Scene scene;
     Material corner = lambertian(Vec3(1));
     corner.alphaMode = AlphaMode::kMask;
-    corner.baseColorTexture.texture = TextureId{0};
+    corner.setSlot(TextureUse::kBaseColor, {TextureId{0}});
     scene.texels.push_back(ImageRgba8(2, 1));  // alpha 0 on the left, 255 on the right
     scene.texels[0].at(1, 0).w = 255;
     scene.textures.push_back({TexelsId{0}, Wrap::kClamp, Wrap::kClamp, true});
