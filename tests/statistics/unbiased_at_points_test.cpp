@@ -1,5 +1,6 @@
 // Proof 3 of every strategy at single points: the estimator's mean is the sum over all lights, found by quadrature in
 // double. Proof 5: it stays the same when the same light is described in another way.
+#include "renderer/base/rng.h"
 #include "tests/support/depth.h"
 #include "tests/support/estimator.h"
 #include "tests/support/strategies.h"
@@ -69,21 +70,30 @@ TEST_P(UnbiasedAtPoints, MeanIsTheSumOverAllLights) {
   expectReferenceOf(scene, scene, receivers());
 }
 
+/// Random, each order as likely.
+void shuffle(auto& elements, Rng& rng) {
+  for (std::size_t i = elements.size(); i > 1; --i) {
+    std::swap(elements[i - 1], elements[rng.below(static_cast<std::uint32_t>(i))]);
+  }
+}
+
 TEST_P(UnbiasedAtPoints, OrderOfLightsDoesNotMatter) {
+  if (mix() == LightMix::kEnvironment) GTEST_SKIP() << "the texels of a picture have one order";
   Scene scene;
   addFacets(scene, receivers());
   addLights(scene, mix(), 33, seed());
   finish(scene);
-  Scene reversed = scene;
-  std::reverse(reversed.pointLights.begin(), reversed.pointLights.end());
-  std::reverse(reversed.spotLights.begin(), reversed.spotLights.end());
-  std::reverse(reversed.directionalLights.begin(), reversed.directionalLights.end());
-  std::reverse(reversed.meshes.begin(), reversed.meshes.end());
-  for (Mesh& mesh : reversed.meshes) std::reverse(mesh.triangles.begin(), mesh.triangles.end());
-  expectReferenceOf(reversed, scene, receivers());
+  Scene shuffled = scene;
+  Rng rng(seed());
+  shuffle(shuffled.pointLights, rng);
+  shuffle(shuffled.spotLights, rng);
+  shuffle(shuffled.directionalLights, rng);
+  shuffle(shuffled.meshes, rng);
+  for (Mesh& mesh : shuffled.meshes) shuffle(mesh.triangles, rng);
+  expectReferenceOf(shuffled, scene, receivers());
 }
 
-/// Each light as `copies` at the same place with a part of its power.
+/// Each light of no extent as `copies` at the same place with a part of its power.
 Scene withCoincidentLights(const Scene& scene, int copies) {
   Scene result = scene;
   const auto repeat = [&](auto& lights, auto part) {
@@ -102,11 +112,16 @@ Scene withCoincidentLights(const Scene& scene, int copies) {
 }
 
 TEST_P(UnbiasedAtPoints, CoincidentLightsAddUp) {
+  if (mix() == LightMix::kTriangle) GTEST_SKIP() << "which of coincident triangles hides the others is not defined";
+  if (mix() == LightMix::kEnvironment) GTEST_SKIP() << "a scene has one environment";
   Scene scene;
   addFacets(scene, receivers());
   addLights(scene, mix(), 10, seed());
   finish(scene);
-  expectReferenceOf(withCoincidentLights(scene, 5), scene, receivers());
+  for (const int copies : {2, 5, 7}) {
+    SCOPED_TRACE(copies);
+    expectReferenceOf(withCoincidentLights(scene, copies), scene, receivers());
+  }
 }
 
 CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(UnbiasedAtPoints);
@@ -125,6 +140,8 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
     return scene;
   };
   const Scene fine = quad(16, 16);
+  std::vector<double> references;
+  for (const Receiver& receiver : receivers) references.push_back(referenceReflected(fine, receiver));
   // 2, 32 and 10,000 triangles; a strategy of O(N) cannot have the last on every change.
   for (const auto& [columns, rows] :
        {std::pair(1, 1), std::pair(4, 4), std::pair(static_cast<int>(byDepth(8, 100)), 50)}) {
@@ -134,8 +151,7 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
     PointTests tests(3 * receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       const std::size_t samples = sampleShare(byDepth(columns * rows > 100 ? 10'000 : 100'000, 65'536));
-      tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)),
-                referenceReflected(fine, receivers[i]));
+      tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)), references[i]);
     }
     tests.finish(receivers.size() / 2);
   }

@@ -2,6 +2,7 @@
 
 #include "renderer/scene/camera.h"
 #include "renderer/scene/recipes/recipe.h"
+#include "tests/support/restrictions.h"
 #include "tests/ui/viewer_fixture.h"
 #include "ui/gl_error.h"
 #include "ui/memory_window.h"
@@ -208,6 +209,17 @@ TEST_F(ViewerTest, ABadSceneIsRefusedAndTheOldOneGoesOn) {
   EXPECT_EQ(viewer_->session().snapshot()->passes, 2u);
 }
 
+TEST_F(ViewerTest, ASceneThatIsGoneWhenItIsReadAgainGoesOn) {
+  writeFileAtomically(folder_ / "gone.glb", generateRecipe(Recipe::kRooms, 8, 0));
+  play("drop gone.glb\nwait idle\n");
+  ASSERT_EQ(viewer_->problem(), "");
+  std::filesystem::remove(folder_ / "gone.glb");
+  play("key F5\nwait idle\n");
+  EXPECT_THAT(viewer_->problem(), HasSubstr("gone.glb: does not exist"));
+  play("key 2\nwait idle\n");
+  EXPECT_EQ(viewer_->session().snapshot()->passes, 2u);
+}
+
 TEST_F(ViewerTest, SavesTheWindowAndTheRendering) {
   play("wait idle\nkey F12\nwait idle\n");
   EXPECT_THAT(viewer_->problem(), HasSubstr("saved"));
@@ -266,6 +278,23 @@ TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {
                                                          << std::string(std::istreambuf_iterator<char>(recorded), {});
 }
 
+TEST_F(ViewerTest, ARecordingThatFailsIsSaidWhileAndAfterItGoesOn) {
+  ViewerOptions recording;
+  recording.record = folder_ / "recorded.txt";
+  open(recording);
+  play("key 2\nwait idle\n");
+  EXPECT_EQ(viewer_->problem(), "");
+  {
+    const FileSizeLimit limit(100);  // the first line and part of the second
+    play("key 3\nkey 4\nkey 5\nkey 2\nwait idle\n");
+  }
+  EXPECT_THAT(viewer_->problem(), HasSubstr("recorded.txt: not all that was done could be recorded; make room"));
+  play("click Dismiss\nkey 2\n");
+  EXPECT_EQ(viewer_->problem(), "") << "it is said once";
+  EXPECT_THROW(viewer_->endRecording(), std::runtime_error);
+  EXPECT_NO_THROW(viewer_->endRecording()) << "nothing is recorded any more";
+}
+
 TEST_F(ViewerTest, ViewsAreKeptAndGoneBackTo) {
   play("drag left 300 200 340 220\nkey Ctrl+3\n");
   const Camera kept = *viewer_->state().settings.view;
@@ -298,13 +327,13 @@ TEST_F(ViewerTest, RecentFilesOutliveTheWindow) {
 }
 
 TEST_F(ViewerTest, AReferenceIsMadeBesideThePicture) {
-  play("wait idle\nclick Reference\nset \"Reference spp\" 32\nclick \"Make reference\"\nwait idle\n");
+  play("wait idle\nclick Reference\nset \"Reference spp\" 8\nclick \"Make reference\"\nwait idle\n");
   ASSERT_TRUE(viewer_->reference().picture);
-  EXPECT_EQ(viewer_->reference().passes, 32u);
-  play("set \"Stop at spp\" 16\nwait idle\n");
+  EXPECT_EQ(viewer_->reference().passes, 8u);
+  play("set \"Stop at spp\" 4\nwait idle\n");
   const ConvergenceRun run = viewer_->convergence().run();
   ASSERT_GT(run.points.size(), 1u);
-  EXPECT_EQ(run.points.back().passes, 16u);
+  EXPECT_EQ(run.points.back().passes, 4u);
   EXPECT_LT(run.points.back().relmse, run.points.front().relmse);
   EXPECT_GE(run.points.back().flip, 0);
   EXPECT_EQ(run.name, "cell-cut");
@@ -324,7 +353,7 @@ TEST_F(ViewerTest, AReferenceIsMadeBesideThePicture) {
 
 TEST_F(ViewerTest, ADuelEndsWhenItsTimeIsUpAndShowsTheRatio) {
   play(
-      "wait idle\nclick Reference\nset \"Reference spp\" 32\nkey J\nwait idle\nclick Duel\nset Opponent uniform\n"
+      "wait idle\nclick Reference\nset \"Reference spp\" 8\nkey J\nwait idle\nclick Duel\nset Opponent uniform\n"
       "set \"Stop at s\" 1\nset \"Duel in equal time\" on\nwait idle\n");
   const WidgetItem* ratio = viewer_->widgets().find("Ratio");
   ASSERT_NE(ratio, nullptr);
