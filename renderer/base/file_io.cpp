@@ -4,7 +4,8 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -71,6 +72,63 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+/// A file that is opened first and looked at then, so that it is the same one all the while, whatever its name stands for
+/// by now.
+class OpenFile {
+ public:
+  /// \throws InputError
+  explicit OpenFile(const fs::path& file) : file_(file) {
+    // Without O_NONBLOCK a pipe is waited for until somebody writes into it.
+    descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor_ < 0) refuseOpening(errno);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() { ::close(descriptor_); }
+
+  /// \throws InputError if it is no regular file or larger than that
+  std::size_t size(std::uintmax_t maxBytes) const {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) refuse("cannot be read (" + describe(errno) + "); copy it again");
+    if (S_ISDIR(status.st_mode)) refuse("is a folder; name a file in it");
+    if (!S_ISREG(status.st_mode)) refuse("is no regular file but a pipe or a device; copy what it holds into a file");
+    const auto size = static_cast<std::uintmax_t>(status.st_size);
+    if (size > maxBytes) {
+      refuse("has " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(maxBytes) +
+             "; make it smaller");
+    }
+    return static_cast<std::size_t>(size);
+  }
+
+  /// \throws InputError if it has fewer bytes by now
+  void read(std::span<std::byte> bytes) const {
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t count = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) refuse("cannot be read to its end (" + describe(errno) + "); copy it again");
+      if (count == 0) refuse("became shorter while it was read; try again when it is whole");
+      done += static_cast<std::size_t>(count);
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& problem) const { throw InputError(file_.string(), problem); }
+
+  [[noreturn]] void refuseOpening(int error) const {
+    std::error_code ignored;
+    if (error == ENOENT && fs::is_symlink(fs::symlink_status(file_, ignored))) {
+      refuse("is a link to a file that does not exist; put the file itself there");
+    }
+    if (error == ENOENT || error == ENOTDIR) refuse("does not exist; check its name and folder");
+    if (error == EACCES)
+      refuse("cannot be opened (" + describe(error) + "); change its permissions or those of its folder");
+    refuse("cannot be opened (" + describe(error) + ")");
+  }
+
+  fs::path file_;
+  int descriptor_ = -1;
+};
+
 }  // namespace
 
 void writeFileAtomically(const fs::path& file, std::span<const std::byte> bytes) {
@@ -80,23 +138,10 @@ void writeFileAtomically(const fs::path& file, std::span<const std::byte> bytes)
 }
 
 std::vector<std::byte> readFile(const fs::path& file, std::uintmax_t maxBytes) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) throw InputError(file.string(), "does not exist");
-  if (!fs::is_regular_file(status)) throw InputError(file.string(), "is no regular file");
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw InputError(file.string(), "cannot be read (" + error.message() + ")");
-  if (size > maxBytes) {
-    throw InputError(file.string(),
-                     "has " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(maxBytes));
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string(), "cannot be opened (" + describe(errno) + ")");
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) {
-    throw InputError(file.string(), "cannot be read to its end");
-  }
+  const OpenFile open(file);
+  const std::size_t size = open.size(maxBytes);
+  std::vector<std::byte> bytes(size);
+  open.read(bytes);
   return bytes;
 }
 

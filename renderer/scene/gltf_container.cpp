@@ -32,7 +32,8 @@ bool isBinaryGltf(std::span<const std::byte> file) {
 
 std::string_view gltfJson(std::span<const std::byte> file, const std::string& name) {
   if (!isBinaryGltf(file)) return textOf(file);
-  if (file.size() < kHeaderBytes + kChunkHeaderBytes) throw InputError(name, "the file ends inside its header");
+  if (file.size() < kHeaderBytes + kChunkHeaderBytes)
+    throw InputError(name, "the file ends inside its header; copy it again");
   if (wordAt(file, 4) != 2) {
     throw InputError(name, "binary glTF version " + std::to_string(wordAt(file, 4)) + "; only version 2 is read");
   }
@@ -43,13 +44,15 @@ std::string_view gltfJson(std::span<const std::byte> file, const std::string& na
   std::size_t chunk = 0;
   for (std::size_t at = kHeaderBytes; at < length; ++chunk) {
     const std::string place = name + ": chunk " + std::to_string(chunk);
-    if (length - at < kChunkHeaderBytes) throw InputError(place, "the file ends inside its header");
+    if (length - at < kChunkHeaderBytes) throw InputError(place, "the file ends inside its header; copy it again");
     const std::size_t size = wordAt(file, at);
     const std::uint32_t type = wordAt(file, at + 4);
     at += kChunkHeaderBytes;
-    if (size > length - at) throw InputError(place, "reaches past the end of the file");
-    if ((chunk == 0) != (type == kJsonChunk)) throw InputError(place, "the first chunk, and no other, must be JSON");
-    if (type == kBinaryChunk && chunk != 1) throw InputError(place, "binary data must be the second chunk");
+    if (size > length - at) throw InputError(place, "reaches past the end of the file; copy it again");
+    if ((chunk == 0) != (type == kJsonChunk))
+      throw InputError(place, "the first chunk, and no other, must be JSON; export the file again");
+    if (type == kBinaryChunk && chunk != 1)
+      throw InputError(place, "binary data must be the second chunk; export the file again");
     if (chunk == 0) json = textOf(file.subspan(at, size));
     at += size;
   }
@@ -71,10 +74,11 @@ void checkJsonShape(std::string_view json, const std::string& name) {
     if (c == ',' || c == ':') ++values;
     if (c == ']' || c == '}') --depth;
     if ((c == '[' || c == '{') && ++depth > kMaxJsonDepth) {
-      throw InputError(name, "JSON nested more than " + std::to_string(kMaxJsonDepth) + " deep");
+      throw InputError(name, "JSON nested more than " + std::to_string(kMaxJsonDepth) + " deep; export the file again");
     }
   }
-  if (values > kMaxJsonValues) throw InputError(name, "more than " + std::to_string(kMaxJsonValues) + " JSON values");
+  if (values > kMaxJsonValues)
+    throw InputError(name, "more than " + std::to_string(kMaxJsonValues) + " JSON values; split the scene");
 }
 
 }  // namespace cellcut

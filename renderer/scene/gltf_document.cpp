@@ -16,6 +16,7 @@ namespace {
 /// What the parser's callbacks share. They report through the parser's own error path; the first InputError is kept
 /// here, because the parser would drop it (a missing image is only a warning to it).
 struct ParseContext {
+  const std::string& name;
   const SceneFolder& folder;
   std::vector<std::vector<std::byte>>& images;
   std::optional<InputError> error = std::nullopt;
@@ -64,7 +65,10 @@ bool keepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, 
   if (image->bufferView >= 0) return true;
   ParseContext& context = contextOf(user);
   const auto slot = static_cast<std::size_t>(index);
-  if (size < 0) return context.fail(InputError("images[" + std::to_string(index) + "]", "is larger than 2 GB"));
+  if (size < 0) {
+    return context.fail(InputError(context.name + ": images[" + std::to_string(index) + "]",
+                                   "is larger than 2 GB; scale the picture down"));
+  }
   if (context.images.size() <= slot) context.images.resize(slot + 1);
   const auto* first = reinterpret_cast<const std::byte*>(bytes);
   context.images[slot].assign(first, first + size);
@@ -131,14 +135,14 @@ GltfDocument readGltf(const std::filesystem::path& file) {
   const SceneFolder folder(file);
   // One byte less than the limit: the parser counts in 32 bits.
   const std::vector<std::byte> bytes = readFile(file, kMaxSceneFileBytes - 1);
-  if (bytes.empty()) throw InputError(document.name, "is empty");
+  if (bytes.empty()) throw InputError(document.name, "is empty; export the file again");
   checkJsonShape(gltfJson(bytes, document.name), document.name);
 
-  ParseContext context{folder, document.images};
+  ParseContext context{document.name, folder, document.images};
   const bool parsed = parse(bytes, context, document.model, document.complaint);
   checkExtensions(document);  // first: an unknown format inside explains what else is wrong
   if (context.error) throw *context.error;
-  if (!parsed) throw InputError(document.name, document.complaint);
+  if (!parsed) throw InputError(document.name, document.complaint + "; export the file again");
   document.images.resize(document.model.images.size());
   checkDocument(document);
   return document;

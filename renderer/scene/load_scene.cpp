@@ -32,7 +32,7 @@ Scene loadScene(const std::filesystem::path& file, const LoadOptions& options) {
   try {
     return flatten(loadDraft(file, options));
   } catch (const std::bad_alloc&) {
-    throw InputError(file.string(), "does not fit into memory");
+    throw InputError(file.string(), "does not fit into memory; fewer triangles or smaller textures need less");
   }
 }
 

@@ -241,7 +241,7 @@ SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits) 
   ByteStream stream(bytes);
   std::string warnings, errors;
   tinyobj::LoadObjWithCallback(stream, callbacks, &reader, &libraries, &warnings, &errors);
-  if (!errors.empty()) throw InputError(draft.name, errors.substr(0, errors.find('\n')));
+  if (!errors.empty()) throw InputError(draft.name, errors.substr(0, errors.find('\n')) + "; export the file again");
   reader.finish();
   return draft;
 }

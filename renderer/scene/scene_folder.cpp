@@ -40,13 +40,14 @@ SceneFolder::SceneFolder(const std::filesystem::path& sceneFile) : scene_(sceneF
   std::error_code error;
   const std::filesystem::path parent = sceneFile.has_parent_path() ? sceneFile.parent_path() : ".";
   folder_ = std::filesystem::weakly_canonical(parent, error);
-  if (error) throw InputError(sceneFile.string(), "its folder cannot be read: " + error.message());
+  if (error)
+    throw InputError(sceneFile.string(), "its folder cannot be read (" + error.message() + "); change its permissions");
 }
 
 std::filesystem::path SceneFolder::resolve(const std::string& reference) const {
-  const auto refuse = [&](const char* problem) { throw InputError(scene_ + ": " + shown(reference), problem); };
-  if (reference.empty()) refuse("names no file");
-  if (hasControlCharacter(reference)) refuse("has control characters in a file name");
+  const auto refuse = [&](const std::string& problem) { throw InputError(scene_ + ": " + shown(reference), problem); };
+  if (reference.empty()) refuse("names no file; export the scene again");
+  if (hasControlCharacter(reference)) refuse("has control characters in a file name; rename the file");
   if (hasScheme(reference)) refuse("has a scheme that is not read; put the file beside the scene");
   const std::filesystem::path relative(reference);
   if (relative.is_absolute()) refuse("is an absolute path; name files relative to the scene");
@@ -55,7 +56,7 @@ std::filesystem::path SceneFolder::resolve(const std::string& reference) const {
   }
   std::error_code error;
   std::filesystem::path file = std::filesystem::weakly_canonical(folder_ / relative, error);
-  if (error) refuse("cannot be found");
+  if (error) refuse("cannot be found (" + error.message() + "); put the file itself beside the scene");
   if (!isInside(file, folder_)) refuse("is a link out of the scene's folder; put the file itself beside the scene");
   return file;
 }

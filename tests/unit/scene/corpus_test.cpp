@@ -1,8 +1,8 @@
 /// The loaders on real files, sound and broken.
 #include "renderer/base/error.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/support/hostile_budget.h"
 
-#include <chrono>
 #include <fstream>
 #include <map>
 #include <set>
@@ -53,12 +53,12 @@ bool hasUsedReference(const std::string& file, const std::set<std::string>& code
   return false;
 }
 
-TEST(Corpus, EveryGltfLoadsOrIsRefusedInTwoSeconds) {
+TEST(Corpus, EveryGltfLoadsOrIsRefusedInItsBudget) {
   if (!fs::exists(kCorpus)) GTEST_SKIP() << "no corpus beside the checkout";
   const auto manifest = readManifest();
   ASSERT_GT(manifest.size(), 100u);
   for (const auto& [file, codes] : manifest) {
-    const auto start = std::chrono::steady_clock::now();
+    const test::HostileBudget budget(file);
     bool refused = false;
     try {
       loadScene(kCorpus / "gltf" / file);
@@ -67,8 +67,6 @@ TEST(Corpus, EveryGltfLoadsOrIsRefusedInTwoSeconds) {
       EXPECT_THAT(error.what(), testing::HasSubstr(fs::path(file).filename().string()));
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
-    // Not a benchmark: these take milliseconds, and a hang is what it looks for.
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2)) << file;
     if (mustBeRefused(codes) || hasUsedReference(file, codes)) {
       EXPECT_TRUE(refused) << file;
     }

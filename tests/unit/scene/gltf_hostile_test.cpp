@@ -3,6 +3,7 @@
 #include "renderer/scene/gltf_container.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/hostile_budget.h"
 #include "tests/support/temporary_directory.h"
 
 #include <functional>
@@ -16,6 +17,7 @@ namespace {
 using test::GltfBuilder;
 using Json = nlohmann::json;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 /// Of a list that may be a temporary.
 template <class T>
@@ -66,6 +68,16 @@ TEST_F(HostileGltf, RefusesBufferViewsPastTheirBuffer) {
   EXPECT_THAT(refusalOf([](Json& j) { j["bufferViews"][0]["byteOffset"] = ~0ull - 8; }), HasSubstr("bufferViews[0]"));
   EXPECT_THAT(refusalOf([](Json& j) { j["bufferViews"][0]["buffer"] = 1; }), HasSubstr("bufferViews[0]"));
   EXPECT_THAT(refusalOf([](Json& j) { j["bufferViews"][0]["buffer"] = -1; }), HasSubstr("bufferViews[0]"));
+}
+
+TEST_F(HostileGltf, RefusesBuffersOfAnotherLengthThanTheirData) {
+  for (const unsigned long long length : {85ull, 1ull << 31, (1ull << 32) + 84, 1ull << 63, ~0ull - 83, ~0ull}) {
+    GltfBuilder file = sound();
+    file.json["buffers"] = {{{"byteLength", length}}};
+    const test::HostileBudget budget(std::to_string(length));
+    EXPECT_THAT(refusalOf(file.writeGlb(folder / "test.glb")), StartsWith("test.glb: ")) << length;
+    EXPECT_THAT(refusalOf(file.writeGltf(folder / "test.gltf")), StartsWith("test.gltf: ")) << length;
+  }
 }
 
 TEST_F(HostileGltf, RefusesAccessorsPastTheirBufferView) {
@@ -130,7 +142,15 @@ TEST_F(HostileGltf, RefusesSparseAccessorsThatDoNotFit) {
   EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["count"] = 3; }), HasSubstr("reaches past"));
   EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["count"] = -1; }), HasSubstr("more sparse"));
   EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["indices"]["bufferView"] = 9; }), HasSubstr("does not exist"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["count"] = ~0ull; }), HasSubstr("more sparse"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["count"] = ~0ull - 1; }), HasSubstr("more sparse"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["values"]["bufferView"] = 9; }), HasSubstr("does not exist"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["values"]["bufferView"] = -1; }), HasSubstr("does not exist"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["indices"]["byteOffset"] = 1; }), HasSubstr("reaches past"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["indices"]["byteOffset"] = 5; }), HasSubstr("reaches past"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["indices"]["byteOffset"] = 1 << 30; }), HasSubstr("reaches past"));
   EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["values"]["byteOffset"] = 4; }), HasSubstr("reaches past"));
+  EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["values"]["byteOffset"] = 1 << 30; }), HasSubstr("reaches past"));
   // tinygltf 2.9 reads no negative number there and leaves 0.
   EXPECT_THAT(sparse({0, 2}, [](Json& s) { s["values"]["byteOffset"] = -4; }),
               testing::AnyOf(HasSubstr("negative"), "was not refused"));
@@ -173,16 +193,19 @@ TEST_F(HostileGltf, RefusesNodesThatFormNoTree) {
 }
 
 TEST_F(HostileGltf, AChainOf200000NodesLoads) {
-  GltfBuilder file;
   constexpr int kDepth = 200'000;
+  GltfBuilder file;
   Json nodes = Json::array();
   for (int i = 0; i + 1 < kDepth; ++i) nodes.push_back({{"children", {i + 1}}, {"translation", {0, 0, 1}}});
   nodes.push_back({{"mesh", file.addTriangle()}});
   file.json["nodes"] = std::move(nodes);
   file.json["scenes"][0]["nodes"] = {0};
-  const Scene scene = loadScene(file.writeGlb(folder / "chain.glb"));
-  EXPECT_EQ(scene.triangleCount(), 1u);
-  EXPECT_EQ(scene.origin.z, kDepth - 1);
+  for (const auto& path : {file.writeGlb(folder / "chain.glb"), file.writeGltf(folder / "chain.gltf")}) {
+    const test::HostileBudget budget(path.filename());
+    const Scene scene = loadScene(path);
+    EXPECT_EQ(scene.triangleCount(), 1u);
+    EXPECT_EQ(scene.origin.z, kDepth - 1);
+  }
 }
 
 TEST_F(HostileGltf, RefusesInstancesWithoutEnd) {
@@ -237,15 +260,17 @@ TEST_F(HostileGltf, RefusesDeepNestingAndAcceptsBracketsInStrings) {
     return "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(depth, '[') + std::string(depth, ']') + "}";
   };
   EXPECT_EQ(refusalOf(test::writeFile(folder / "a.gltf", nested(100))), "was not refused");
-  EXPECT_THAT(refusalOf(test::writeFile(folder / "a.gltf", nested(1'000'000))), HasSubstr("nested"));
+  const std::filesystem::path deep = test::writeFile(folder / "a.gltf", nested(1'000'000));
+  const test::HostileBudget budget("nested");
+  EXPECT_THAT(refusalOf(deep), HasSubstr("a.gltf: JSON nested more than 128 deep; export"));
   EXPECT_NO_THROW(checkJsonShape("[\"" + std::string(1000, '[') + "\\\"" + std::string(1000, '{') + "\"]", "a"));
 }
 
 TEST_F(HostileGltf, RefusesEveryTruncationOfAFile) {
   const std::vector<std::byte> whole = sound().glb();
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_NE(refusalOf(std::vector(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
-              "was not refused")
+    EXPECT_THAT(refusalOf(std::vector(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))),
+                StartsWith("test.glb: "))
         << size;
   }
 }
@@ -273,26 +298,41 @@ TEST_F(HostileGltf, RefusesChunksThatLieAboutTheirLength) {
 TEST_F(HostileGltf, RefusesBuffersAndImagesOutsideOfTheFolder) {
   test::writeFile(folder / "secret.bin", std::string(84, 'x'));
   std::filesystem::create_directory(folder / "scene");
-  for (const char* uri : {"../secret.bin", "%2e%2e/secret.bin", "..%2Fsecret.bin", "%2Fetc%2Fpasswd", "/etc/passwd",
-                          "file:///etc/passwd", "missing.bin", "secret.bin%00.png", ""}) {
+  const struct {
+    const char* uri;
+    const char* refusal;
+  } references[] = {{"../secret.bin", "\"../secret.bin\": leads out of the scene's folder; put"},
+                    {"%2e%2e/secret.bin", "\"../secret.bin\": leads out of the scene's folder; put"},
+                    {"..%2Fsecret.bin", "\"../secret.bin\": leads out of the scene's folder; put"},
+                    {"%2Fetc%2Fpasswd", "\"/etc/passwd\": is an absolute path; name"},
+                    {"/etc/passwd", "\"/etc/passwd\": is an absolute path; name"},
+                    {"file:///etc/passwd", "\"file:///etc/passwd\": has a scheme that is not read; put"},
+                    {"missing.bin", "missing.bin: does not exist; check"},
+                    {"secret.bin%00.png", "\"secret.bin?.png\": has control characters in a file name; rename"}};
+  for (const auto& [uri, refusal] : references) {
+    const auto named = testing::AllOf(StartsWith("test.gltf: "), HasSubstr(refusal));
     GltfBuilder buffer = sound();
     buffer.json["buffers"] = {{{"byteLength", 84}, {"uri", uri}}};
-    EXPECT_NE(refusalOf(buffer.writeGltf(folder / "scene/test.gltf")), "was not refused") << uri;
-    if (*uri == '\0') continue;  // an image without a file is an error only where it is used
+    EXPECT_THAT(refusalOf(buffer.writeGltf(folder / "scene/test.gltf")), named);
     GltfBuilder image = sound();
     image.json["images"] = {{{"uri", uri}}};
-    EXPECT_NE(refusalOf(image.writeGltf(folder / "scene/test.gltf")), "was not refused") << uri;
+    EXPECT_THAT(refusalOf(image.writeGltf(folder / "scene/test.gltf")), named);
   }
+  // An image without a file is an error only where it is used.
+  GltfBuilder file = sound();
+  file.json["buffers"] = {{{"byteLength", 84}, {"uri", ""}}};
+  EXPECT_THAT(refusalOf(file.writeGltf(folder / "scene/test.gltf")),
+              testing::AllOf(StartsWith("test.gltf: "), HasSubstr("'uri' is missing")));
 }
 
 TEST_F(HostileGltf, RefusesWhatIsNoSceneFile) {
   EXPECT_THAT(refusalOf(folder / "missing.glb"), HasSubstr("missing.glb"));
-  EXPECT_NE(refusalOf(folder.path()), "was not refused");
+  EXPECT_THAT(refusalOf(folder.path()), HasSubstr(folder.path().string() + ": is not a scene file; .gltf"));
   EXPECT_THAT(refusalOf(test::writeFile(folder / "empty.glb", "")), HasSubstr("empty.glb: is empty"));
   EXPECT_THAT(refusalOf(test::writeFile(folder / "a.fbx", "x")), HasSubstr(".gltf"));
   for (const char* text :
        {"", "{", "[]", "null", "{}", "{\"asset\":1}", "{\"asset\":{\"version\":2}}", "1e999", "\xFF\xFE"}) {
-    EXPECT_NE(refusalOf(test::writeFile(folder / "a.gltf", text)), "was not refused") << text;
+    EXPECT_THAT(refusalOf(test::writeFile(folder / "a.gltf", text)), StartsWith("a.gltf: ")) << text;
   }
 }
 
