@@ -69,6 +69,7 @@ int showViewer(const ViewOptions& options, const Console& console) {
     FrameLoop loop(viewer, *opened.window);
     while (!opened.window->shouldClose()) loop.step();
   }
+  viewer.endRecording();
   return kDone;
 }
 

@@ -1,10 +1,11 @@
 #include "ui/viewer/script.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 
 #include <charconv>
 #include <chrono>
-#include <fstream>
+#include <sstream>
 
 namespace cellcut {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 /// What a frame of a script takes for animations: the same picture on any machine.
 constexpr double kFrameSeconds = 1.0 / 60;
 constexpr std::chrono::minutes kLongestWait{10};
+/// A person's day of work has a hundredth of it.
+constexpr std::uintmax_t kMaxScriptBytes = std::uintmax_t{1} << 20;
 /// More than panels take to come to rest; what still moves then (a row that scrolls) is taken where it is.
 constexpr int kMostUnsettledFrames = 10;
 
@@ -36,7 +39,7 @@ std::vector<std::string> split(const std::string& text, const std::string& place
       break;
     } else if (text[i] == '"') {
       const std::size_t end = text.find('"', i + 1);
-      if (end == std::string::npos) throw InputError(place, "a quote has no end");
+      if (end == std::string::npos) throw InputError(place, "a quote has no end; add another");
       words.push_back(text.substr(i + 1, end - i - 1));
       i = end + 1;
     } else {
@@ -61,7 +64,7 @@ void checkAction(const ScriptAction& action, const std::string& place) {
     throw InputError(place, "'" + action.words[0] + "' takes " + std::to_string(verb.words - 1) +
                                 " words; names of several words stand in quotes");
   }
-  throw InputError(place, "no action '" + action.words[0] + "'");
+  throw InputError(place, "no action '" + action.words[0].substr(0, 80) + "'; cellcut view --help lists them");
 }
 
 std::optional<double> asNumber(const std::string& text) {
@@ -75,8 +78,8 @@ std::optional<double> asNumber(const std::string& text) {
 }  // namespace
 
 std::vector<ScriptAction> readScript(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string(), "cannot be read");
+  const std::vector<std::byte> bytes = readFile(file, kMaxScriptBytes);
+  std::istringstream stream(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   std::vector<ScriptAction> actions;
   int line = 0;
   for (std::string text; std::getline(stream, text);) {

@@ -35,7 +35,7 @@ struct ScriptAction {
   std::vector<std::string> words;
 };
 
-/// \throws InputError naming file, line and remedy
+/// \throws InputError naming file, line and remedy; as readFile(), and for scripts of more than a megabyte
 std::vector<ScriptAction> readScript(const std::filesystem::path& file);
 
 class ScriptPlayer {

@@ -3,6 +3,7 @@
 #include "renderer/base/error.h"
 
 #include <charconv>
+#include <stdexcept>
 
 namespace cellcut {
 namespace {
@@ -34,19 +35,31 @@ std::string exactNumber(double value) {
   return shortest(value);
 }
 
-ScriptRecorder::ScriptRecorder(const std::filesystem::path& file) : stream_(file) {
+ScriptRecorder::ScriptRecorder(const std::filesystem::path& file) : file_(file), stream_(file) {
   if (!stream_) throw InputError(file.string(), "cannot be written; name a file in a folder that is there");
   stream_ << "# Recorded by cellcut; replay with: cellcut view --script FILE SCENE\n" << std::flush;
+  if (!stream_) throw InputError(file.string(), "cannot be written; make room or choose another place");
 }
 
 ScriptRecorder::~ScriptRecorder() {
   flush();
 }
 
+std::string ScriptRecorder::failure() const {
+  return file_.string() + ": not all that was done could be recorded; make room or choose another place";
+}
+
 void ScriptRecorder::flush() {
+  const bool sound = stream_.good();
   for (std::size_t i = 0; i < last_.size(); ++i) stream_ << (i > 0 ? " " : "") << asWord(last_[i]);
   if (!last_.empty()) stream_ << '\n' << std::flush;
   last_.clear();
+  if (sound && !stream_) problem_ = failure();
+}
+
+void ScriptRecorder::finish() {
+  flush();
+  if (!stream_) throw std::runtime_error(failure());
 }
 
 void ScriptRecorder::write(std::vector<std::string> words) {

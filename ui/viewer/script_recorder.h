@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cellcut {
@@ -19,7 +20,7 @@ class ScriptRecorder {
  public:
   /// Begins the file anew. \throws InputError if it cannot be written
   explicit ScriptRecorder(const std::filesystem::path& file);
-  /// Writes the last line; until then the file lacks it.
+  /// As finish(), but what fails is not said.
   ~ScriptRecorder();
   ScriptRecorder(const ScriptRecorder&) = delete;
   ScriptRecorder& operator=(const ScriptRecorder&) = delete;
@@ -38,10 +39,19 @@ class ScriptRecorder {
   void edits(const std::vector<WidgetEdit>& edits);
   void view(const CameraPose& pose);
 
+  /// Why nothing has been written for some time, once; empty while all is well.
+  std::string takeProblem() { return std::exchange(problem_, ""); }
+  /// Writes the last line; until then the file lacks it.
+  /// \throws std::runtime_error if it lacks this or another one
+  void finish();
+
  private:
   void flush();
+  std::string failure() const;
 
-  std::ofstream stream_;
+  std::filesystem::path file_;
+  std::ofstream stream_;  ///< failed from the first line on that could not be written
+  std::string problem_;
   std::vector<std::string> last_;
   bool pictureChanges_ = false;
 };

@@ -58,6 +58,9 @@ class Viewer {
   /// How long the window may sleep when nothing comes in; 0 while there is something to animate.
   double sleepSeconds() const;
 
+  /// Nothing more is recorded. \throws std::runtime_error if not all that was done could be
+  void endRecording();
+
   /// What the last frame drew.
   ImageRgba8 picture() const { return framebuffer_->read(); }
   /// Opens a scene file as if it had been dropped onto the window.

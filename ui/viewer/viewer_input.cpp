@@ -160,12 +160,19 @@ void Viewer::recordKeys() {
   }
 }
 
+void Viewer::endRecording() {
+  if (!recorder_) return;
+  const std::unique_ptr<ScriptRecorder> ended = std::move(recorder_);
+  ended->finish();
+}
+
 void Viewer::recordFrame() {
   if (!recorder_) return;
   recorder_->edits(shown_.edits());
   const bool landed = wasFlying_ && !flying_;
   if (landed) recorder_->view(pose());
   wasFlying_ = flying_;
+  if (std::string problem = recorder_->takeProblem(); !problem.empty()) problem_ = std::move(problem);
 }
 
 void Viewer::readMouse() {
