@@ -174,7 +174,8 @@ void addLoadLimits(CLI::App& verb, LoadLimits& limits) {
   addText(
       verb, "--max-texture-bytes", "N",
       [&limits](const std::string& t) { limits.maxTextureBytes = parseWhole("--max-texture-bytes", t, {}); },
-      "Refuse scenes with more in their pictures, decoded (default " + std::to_string(limits.maxTextureBytes) + ")");
+      "Refuse more in a scene's textures or environment, decoded (default " + std::to_string(limits.maxTextureBytes) +
+          ")");
 }
 
 namespace {
@@ -313,7 +314,8 @@ Scene loadWithOptions(const RenderOptions& options) {
   const EnvironmentOptions& environment = options.environment;
   if (environment.file) {
     const std::string name = environment.file->string();
-    setEnvironment(scene, readImage(*environment.file), environment.scale, environment.rotation, name);
+    setEnvironment(scene, readImage(*environment.file, options.load.limits.maxTextureBytes), environment.scale,
+                   environment.rotation, name);
   }
   return scene;
 }

@@ -12,6 +12,7 @@ namespace cellcut {
 namespace {
 
 constexpr std::uint32_t kMultiPartFlag = 0x1000;
+constexpr std::size_t kMaxEntries = std::size_t{1} << 14;  // renderers write hundreds
 
 struct FixedSize {
   std::string_view type;
@@ -63,13 +64,15 @@ class Cursor {
   std::span<const std::byte> rest_;
 };
 
-bool isChannelList(Cursor value) {
+/// Of a list; nothing if it is damaged.
+std::optional<std::size_t> channelCount(Cursor value) {
   constexpr std::size_t kChannel = 16;  // type, linearity and padding, two samplings
-  for (auto name = value.takeString(); name; name = value.takeString()) {
-    if (name->empty()) return value.atEnd();
-    if (!value.take(kChannel)) return false;
+  std::size_t count = 0;
+  for (auto name = value.takeString(); name; name = value.takeString(), ++count) {
+    if (name->empty()) return value.atEnd() ? std::optional(count) : std::nullopt;
+    if (!value.take(kChannel)) return std::nullopt;
   }
-  return false;
+  return std::nullopt;
 }
 
 bool isPreview(Cursor value, std::size_t size) {
@@ -92,22 +95,23 @@ bool hasItsTypesSize(std::string_view type, std::span<const std::byte> value) {
   for (const FixedSize& fixed : kFixedSizes) {
     if (fixed.type == type) return value.size() == fixed.bytes;
   }
-  if (type == "chlist") return isChannelList(Cursor(value));
+  if (type == "chlist") return channelCount(Cursor(value)).has_value();
   if (type == "preview") return isPreview(Cursor(value), value.size());
   if (type == "stringvector") return isStringVector(Cursor(value));
   if (type == "floatvector") return value.size() % 4 == 0;
   return true;
 }
 
-/// False when something is amiss.
-bool skipHeader(Cursor& file) {
-  for (auto name = file.takeString(); name; name = file.takeString()) {
+/// False when something is amiss. \param entries  attributes and channels so far, of all headers
+bool skipHeader(Cursor& file, std::size_t& entries) {
+  for (auto name = file.takeString(); name && entries <= kMaxEntries; name = file.takeString()) {
     if (name->empty()) return true;
     const auto type = file.takeString();
     const auto size = file.takeInt();
     if (!type || !size) return false;
     const auto value = file.take(*size);
     if (!value || !hasItsTypesSize(*type, *value)) return false;
+    entries += 1 + (*type == "chlist" ? channelCount(Cursor(*value)).value_or(0) : 0);
   }
   return false;
 }
@@ -118,9 +122,16 @@ void checkExrAttributes(std::span<const std::byte> encoded, const std::string& n
   Cursor file(encoded);
   file.takeInt();  // the magic number
   const auto version = file.takeInt();
-  bool valid = version && skipHeader(file);
+  std::size_t entries = 0;
+  bool valid = version && skipHeader(file, entries);
   if (valid && (*version & kMultiPartFlag) != 0) {
-    for (Cursor next = file; valid && next.takeString() != std::string_view(); next = file) valid = skipHeader(file);
+    for (Cursor next = file; valid && next.takeString() != std::string_view(); next = file) {
+      valid = skipHeader(file, entries);
+    }
+  }
+  if (entries > kMaxEntries) {
+    throw InputError(name, "has more than " + std::to_string(kMaxEntries) +
+                               " attributes and channels in its EXR headers; save fewer layers");
   }
   if (!valid)
     throw InputError(name, "an attribute of its EXR header is cut off or has a wrong size; the file is damaged");

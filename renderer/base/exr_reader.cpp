@@ -26,7 +26,6 @@ namespace cellcut {
 namespace {
 
 constexpr std::uint32_t kMagic = 20000630;
-constexpr std::int64_t kMaxChannels = 1024;  // renderers write tens
 
 std::uint32_t littleEndian32(std::span<const std::byte> bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -111,18 +110,15 @@ void checkDisplayWindow(const Window& display, std::int64_t dataPixels, const st
 }
 
 /// Everything that the library's memory depends on.
-void checkHeader(const Imf::Header& header, std::size_t fileBytes, const std::string& name) {
+void checkHeader(const Imf::Header& header, std::size_t fileBytes, std::uint64_t maxBytes, const std::string& name) {
   const Window data = toWindow(header.dataWindow());
-  std::int64_t count = 0;
-  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++count;
-  if (count > kMaxChannels) {
-    throw InputError(name, "has " + std::to_string(count) + " channels, more than " + std::to_string(kMaxChannels));
-  }
   const std::int64_t pixelBytes = bytesPerPixel(header.channels());
   const std::int64_t limit = expansionLimit(header.compression());
   // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): findPart() has chosen a part that has channels.
   checkImageSize(data.width, data.height, fileBytes, std::max<std::int64_t>(1, limit / pixelBytes), name);
-  checkDisplayWindow(toWindow(header.displayWindow()), data.width * data.height, name);
+  const Window display = toWindow(header.displayWindow());
+  checkDisplayWindow(display, data.width * data.height, name);
+  for (const Window& window : {data, display}) checkDecodedBytes(window.width, window.height, maxBytes, name);
   if (header.hasTileDescription()) checkTiles(header.tileDescription(), data, pixelBytes, name);
 }
 
@@ -195,14 +191,14 @@ bool isExr(std::span<const std::byte> encoded) {
   return encoded.size() >= 4 && littleEndian32(encoded, 0) == kMagic;
 }
 
-ImageRgb decodeExr(std::span<const std::byte> encoded, const std::string& name) {
+ImageRgb decodeExr(std::span<const std::byte> encoded, const std::string& name, std::uint64_t maxBytes) {
   checkExrAttributes(encoded, name);
   try {
     MemoryInput stream(encoded, name);
     Imf::MultiPartInputFile file(stream, 0);
     const int part = findPart(file, name);
     const Imf::Header& header = file.header(part);
-    checkHeader(header, encoded.size(), name);
+    checkHeader(header, encoded.size(), maxBytes, name);
     const Window data = toWindow(header.dataWindow());
     return placeInDisplay(readWindow(file, part, data), data, toWindow(header.displayWindow()));
   } catch (const InputError&) {
@@ -210,7 +206,7 @@ ImageRgb decodeExr(std::span<const std::byte> encoded, const std::string& name) 
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {  // the library throws Iex::BaseExc and what the standard library throws
-    throw InputError(name, "cannot be decoded (" + reason(problem) + ")");
+    throw InputError(name, "cannot be decoded (" + reason(problem) + "); save it again");
   }
 }
 

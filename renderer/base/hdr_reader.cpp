@@ -20,10 +20,11 @@ class HdrReader {
  public:
   HdrReader(std::span<const std::byte> encoded, const std::string& name) : bytes_(encoded), name_(name) {}
 
-  ImageRgb read() {
+  ImageRgb read(std::uint64_t maxBytes) {
     readHeader();
     const auto [width, height] = readResolution();
     checkImageSize(width, height, bytes_.size(), kPixelsPerByte, name_);
+    checkDecodedBytes(width, height, maxBytes, name_);
     ImageRgb image(static_cast<int>(width), static_cast<int>(height));
     std::vector<Rgbe> row(static_cast<std::size_t>(width));
     for (int y = 0; y < image.height(); ++y) {
@@ -69,7 +70,8 @@ class HdrReader {
   std::int64_t parse(std::string_view word) const {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) refuse("has no size in its header");
+    if (error != std::errc{} || end != word.data() + word.size())
+      refuse("has no size in its header; the file is damaged");
     return value;
   }
 
@@ -78,7 +80,8 @@ class HdrReader {
     // Only rows of 8 … 32767 pixels are run-length encoded by component, and they begin with this mark.
     const bool runs = row.size() >= 8 && row.size() < 32768 && first[0] == 2 && first[1] == 2 && first[2] < 128;
     if (!runs) return readFlat(first, row);
-    if (static_cast<std::size_t>(first[2] << 8 | first[3]) != row.size()) refuse("has a row of another length");
+    if (static_cast<std::size_t>(first[2] << 8 | first[3]) != row.size())
+      refuse("has a row of another length; the file is damaged");
     for (std::size_t component = 0; component < 4; ++component) readRuns(component, row);
   }
 
@@ -129,8 +132,8 @@ bool isHdr(std::span<const std::byte> encoded) {
   return text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n");
 }
 
-ImageRgb decodeHdr(std::span<const std::byte> encoded, const std::string& name) {
-  return HdrReader(encoded, name).read();
+ImageRgb decodeHdr(std::span<const std::byte> encoded, const std::string& name, std::uint64_t maxBytes) {
+  return HdrReader(encoded, name).read(maxBytes);
 }
 
 }  // namespace cellcut

@@ -3,7 +3,7 @@
 /// image_io.h.
 ///
 /// Every decoder throws InputError naming `name` on bytes it cannot use, and allocates at most a fixed multiple of what
-/// the file's own size makes plausible: a hundred bytes never ask for a gigabyte.
+/// the file's own size makes plausible: a hundred bytes never ask for a gigabyte. `maxBytes` limits what comes out.
 #pragma once
 
 #include "renderer/base/image.h"
@@ -26,15 +26,18 @@ bool isPfm(std::span<const std::byte> encoded);
 /// OpenEXR: scan lines or tiles, half, float or uint; the first part that has R, G and B, or Y, without a layer's
 /// prefix. The picture is the display window; pixels outside of the data window are black. Deep data and subsampled
 /// chroma are refused.
-ImageRgb decodeExr(std::span<const std::byte> encoded, const std::string& name);
+ImageRgb decodeExr(std::span<const std::byte> encoded, const std::string& name,
+                   std::uint64_t maxBytes = kMaxImageBytes);
 
 /// Radiance RGBE, flat or run-length encoded (old and new), top row first.
 /// Source: Ward, "Real Pixels", Graphics Gems II, 1991; Radiance's color.c.
-ImageRgb decodeHdr(std::span<const std::byte> encoded, const std::string& name);
+ImageRgb decodeHdr(std::span<const std::byte> encoded, const std::string& name,
+                   std::uint64_t maxBytes = kMaxImageBytes);
 
 /// PFM, colour (PF) or grey (Pf), either byte order; a scale other than ±1 multiplies. Source: Debevec's HDR Shop
 /// documentation.
-ImageRgb decodePfm(std::span<const std::byte> encoded, const std::string& name);
+ImageRgb decodePfm(std::span<const std::byte> encoded, const std::string& name,
+                   std::uint64_t maxBytes = kMaxImageBytes);
 
 /// Little-endian colour PFM.
 std::vector<std::byte> encodePfm(const ImageRgb& image);
@@ -51,5 +54,9 @@ inline std::string_view asText(std::span<const std::byte> bytes) {
 /// hold it when the format packs at most `pixelsPerByte` pixels into a byte.
 void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileBytes, std::int64_t pixelsPerByte,
                     const std::string& name);
+
+/// \throws InputError that names --max-texture-bytes if linear RGB of a size that checkImageSize lets through has more
+/// than `maxBytes`
+void checkDecodedBytes(std::int64_t width, std::int64_t height, std::uint64_t maxBytes, const std::string& name);
 
 }  // namespace cellcut

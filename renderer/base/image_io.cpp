@@ -27,15 +27,23 @@ void checkImageSize(std::int64_t width, std::int64_t height, std::size_t fileByt
   }
 }
 
-ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name) {
-  if (isExr(encoded)) return decodeExr(encoded, name);
-  if (isHdr(encoded)) return decodeHdr(encoded, name);
-  if (isPfm(encoded)) return decodePfm(encoded, name);
+void checkDecodedBytes(std::int64_t width, std::int64_t height, std::uint64_t maxBytes, const std::string& name) {
+  const std::uint64_t bytes = static_cast<std::uint64_t>(width * height) * sizeof(Vec3);
+  if (bytes <= maxBytes) return;
+  throw InputError(name, std::to_string(width) + " x " + std::to_string(height) + " pixels have " +
+                             std::to_string(bytes) + " bytes decoded, more than " + std::to_string(maxBytes) +
+                             ", the limit (--max-texture-bytes)");
+}
+
+ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name, std::uint64_t maxBytes) {
+  if (isExr(encoded)) return decodeExr(encoded, name, maxBytes);
+  if (isHdr(encoded)) return decodeHdr(encoded, name, maxBytes);
+  if (isPfm(encoded)) return decodePfm(encoded, name, maxBytes);
   throw InputError(name, "is no OpenEXR, Radiance HDR or PFM picture; convert it to one of these");
 }
 
-ImageRgb readImage(const std::filesystem::path& file) {
-  return decodeImage(readFile(file, kMaxFileBytes), file.string());
+ImageRgb readImage(const std::filesystem::path& file, std::uint64_t maxBytes) {
+  return decodeImage(readFile(file, kMaxFileBytes), file.string(), maxBytes);
 }
 
 std::vector<std::byte> encodePng(const ImageRgba8& image) {

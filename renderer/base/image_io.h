@@ -17,6 +17,8 @@ namespace cellcut {
 
 /// Largest picture that is read, in pixels (16384 × 16384: a 4 GB environment map as float RGBA).
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+/// Of the same as linear RGB.
+inline constexpr std::uint64_t kMaxImageBytes = kMaxImagePixels * sizeof(Vec3);
 
 /// 8-bit RGBA as stored in a PNG or JPEG; the meaning (sRGB or linear) is the user's.
 using ImageRgba8 = Image<glm::vec<4, std::uint8_t>>;
@@ -39,12 +41,14 @@ struct LayeredImage {
 /// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey; the display
 /// window, black where there is no data), .pfm or .hdr. The numbers are taken as Rec. 709, whatever primaries a file
 /// names.
-/// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than
+/// \param maxBytes  of the picture, decoded: less than what any may have only where --max-texture-bytes says so
+/// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than maxBytes or
 /// kMaxImagePixels.
-ImageRgb readImage(const std::filesystem::path& file);
+ImageRgb readImage(const std::filesystem::path& file, std::uint64_t maxBytes = kMaxImageBytes);
 
 /// The same from memory; the kind is known by its first bytes. `name` is used in messages only.
-ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name);
+ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name,
+                     std::uint64_t maxBytes = kMaxImageBytes);
 
 /// Width and height that the header of a PNG or JPEG tells.
 /// \throws InputError as decodeImage8 does for headers

@@ -27,7 +27,7 @@ std::string_view nextWord(std::string_view text, std::size_t& at, const std::str
   while (at < text.size() && space(at)) ++at;
   const std::size_t begin = at;
   while (at < text.size() && !space(at)) ++at;
-  if (at == text.size()) throw InputError(name, "ends inside its PFM header");
+  if (at == text.size()) throw InputError(name, "ends inside its PFM header; the file is damaged");
   return text.substr(begin, at++ - begin);
 }
 
@@ -36,7 +36,7 @@ T parseNumber(std::string_view word, const std::string& name) {
   T value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) {
-    throw InputError(name, "has no number where its PFM header needs one");
+    throw InputError(name, "has no number where its PFM header needs one; the file is damaged");
   }
   return value;
 }
@@ -72,9 +72,10 @@ bool isPfm(std::span<const std::byte> encoded) {
          std::isspace(static_cast<unsigned char>(text[2]));
 }
 
-ImageRgb decodePfm(std::span<const std::byte> encoded, const std::string& name) {
+ImageRgb decodePfm(std::span<const std::byte> encoded, const std::string& name, std::uint64_t maxBytes) {
   const PfmHeader header = parseHeader(encoded, name);
   checkImageSize(header.width, header.height, encoded.size(), 1, name);
+  checkDecodedBytes(header.width, header.height, maxBytes, name);
   ImageRgb image;
   const std::size_t pixels = static_cast<std::size_t>(header.width * header.height);
   if (encoded.size() - header.bytes < pixels * header.channels * sizeof(float)) {

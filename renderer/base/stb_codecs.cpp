@@ -44,7 +44,8 @@ void checkPngChunks(std::span<const std::byte> png, const std::string& name) {
     const std::uint64_t length = bigEndian32(png, at);
     if (bigEndian32(png, at + 4) == kEnd) return;
     at += kHeader;
-    if (length + kChecksum > png.size() - at) throw InputError(name, "a PNG chunk reaches past the end of the file");
+    if (length + kChecksum > png.size() - at)
+      throw InputError(name, "a PNG chunk reaches past the end of the file; copy it again");
     at += length + kChecksum;
   }
 }
@@ -65,7 +66,7 @@ glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& nam
   const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.data());
   int width = 0, height = 0, components = 0;
   if (!stbi_info_from_memory(bytes, static_cast<int>(encoded.size()), &width, &height, &components)) {
-    throw InputError(name, std::string("has no valid header (") + stbi_failure_reason() + ")");
+    throw InputError(name, std::string("has no valid header (") + stbi_failure_reason() + "); save it again");
   }
   checkImageSize(width, height, encoded.size(), png ? kPngPixelsPerByte : kJpegPixelsPerByte, name);
   return {width, height};
@@ -77,7 +78,7 @@ ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& n
   const int size = static_cast<int>(encoded.size());
   int width = 0, height = 0, components = 0;
   const std::unique_ptr<stbi_uc, StbFree> pixels(stbi_load_from_memory(bytes, size, &width, &height, &components, 4));
-  if (!pixels) throw InputError(name, std::string("cannot be decoded (") + stbi_failure_reason() + ")");
+  if (!pixels) throw InputError(name, std::string("cannot be decoded (") + stbi_failure_reason() + "); save it again");
   ImageRgba8 image(width, height);
   std::memcpy(static_cast<void*>(image.data()), pixels.get(), image.size() * sizeof(*image.data()));
   return image;

@@ -72,7 +72,7 @@ void readParts(const GltfDocument& document, const std::vector<UsedPrimitive>& u
   });
 }
 
-void readEnvironment(const GltfDocument& document, Scene& scene) {
+void readEnvironment(const GltfDocument& document, std::uint64_t maxBytes, Scene& scene) {
   const tinygltf::Value* environment = extension(document.model.extensions, "CELLCUT_environment");
   if (!environment) return;
   const std::string place = document.name + ": CELLCUT_environment";
@@ -80,7 +80,7 @@ void readEnvironment(const GltfDocument& document, Scene& scene) {
   if (!bufferView || static_cast<std::size_t>(*bufferView) >= document.model.bufferViews.size()) {
     throw InputError(place, "its bufferView does not exist; export the file again");
   }
-  setEnvironment(scene, decodeImage(bufferViewBytes(document.model, *bufferView), place), 1, 0, place);
+  setEnvironment(scene, decodeImage(bufferViewBytes(document.model, *bufferView), place, maxBytes), 1, 0, place);
 }
 
 bool hasPunctualLights(const Scene& scene) {
@@ -127,7 +127,7 @@ SceneDraft loadGltf(const std::filesystem::path& file, const LoadOptions& option
   readParts(document, used, draft);
   readLights(document, nodes, options, draft);
   readCameras(document, nodes, draft);
-  readEnvironment(document, draft.scene);
+  readEnvironment(document, options.limits.maxTextureBytes, draft.scene);
   addWarnings(document, used, options, draft.scene);
   return draft;
 }

@@ -11,7 +11,7 @@ namespace cellcut {
 /// and by pictures that pack well.
 struct LoadLimits {
   std::size_t maxTriangles = std::size_t{1} << 27;         ///< with instances written out; 8 GB with their attributes
-  std::uint64_t maxTextureBytes = std::uint64_t{1} << 33;  ///< of all pictures on surfaces together, decoded
+  std::uint64_t maxTextureBytes = std::uint64_t{1} << 33;  ///< of all pictures on surfaces together, and of the environment, decoded
 };
 
 struct LoadOptions {

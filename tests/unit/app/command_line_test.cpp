@@ -330,6 +330,23 @@ TEST_F(VerbsOnAScene, EnvironmentLightsTheScene) {
   EXPECT_GT(report().at("lights").at("environment"), 0);
 }
 
+TEST_F(VerbsOnAScene, LimitsReachTheLoader) {
+  const std::vector<std::string> sky{"--spp", "1", "--environment", path("sky.pfm"), "--max-texture-bytes"};
+  writePfm(path("sky.pfm"), ImageRgb(256, 128, Vec3(1)));
+  const auto refusalOf = [this](std::vector<std::string> args, const std::string& limit) {
+    args.push_back(limit);
+    const Outcome outcome = render("a.pfm", args);
+    return outcome.code == kBadInput ? outcome.err : "exit code " + std::to_string(outcome.code);
+  };
+  EXPECT_EQ(refusalOf(sky, "393216"), "exit code 0");
+  EXPECT_THAT(refusalOf(sky, "393215"), HasSubstr("sky.pfm: 256 x 128 pixels have 393216 bytes decoded, more than "
+                                                  "393215, the limit (--max-texture-bytes)\n"));
+  EXPECT_THAT(refusalOf({"--spp", "1", "--max-texture-bytes"}, "100"),
+              testing::AllOf(HasSubstr("kinds.glb: images[0]: "), HasSubstr("(--max-texture-bytes)\n")));
+  EXPECT_THAT(refusalOf({"--spp", "1", "--max-triangles"}, "10"),
+              testing::AllOf(HasSubstr("kinds.glb: "), HasSubstr("(--max-triangles)\n")));
+}
+
 /// Sends the process a SIGINT when something is first written to it, as a person would who has seen the first progress.
 class InterruptingBuffer : public std::stringbuf {
  protected:

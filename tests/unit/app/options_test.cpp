@@ -54,6 +54,8 @@ TEST_F(RenderOptionsTest, DefaultsAreTheRenderersOwn) {
   EXPECT_EQ(options.settings.strategy, RenderSettings{}.strategy);
   EXPECT_EQ(options.settings.maxDepth, 8);
   EXPECT_EQ(options.load.punctualScale, 1.0);
+  EXPECT_EQ(options.load.limits.maxTriangles, LoadLimits{}.maxTriangles);
+  EXPECT_EQ(options.load.limits.maxTextureBytes, LoadLimits{}.maxTextureBytes);
   EXPECT_FALSE(options.environment.file.has_value());
   EXPECT_FALSE(options.report.has_value());
 }
@@ -83,6 +85,10 @@ TEST_F(RenderOptionsTest, EveryOptionReachesItsSetting) {
                                        "-90",
                                        "--punctual-scale",
                                        "0.5",
+                                       "--max-triangles",
+                                       "12",
+                                       "--max-texture-bytes",
+                                       "18446744073709551615",
                                        "--report",
                                        (folder_ / "r.json").string()});
   EXPECT_EQ(options.settings.strategy, Strategy::kPower);
@@ -98,6 +104,8 @@ TEST_F(RenderOptionsTest, EveryOptionReachesItsSetting) {
   EXPECT_EQ(options.environment.scale, 2.5);
   EXPECT_EQ(options.environment.rotation, -90);
   EXPECT_EQ(options.load.punctualScale, 0.5);
+  EXPECT_EQ(options.load.limits.maxTriangles, 12u);
+  EXPECT_EQ(options.load.limits.maxTextureBytes, 18446744073709551615u);
   EXPECT_EQ(options.report, folder_ / "r.json");
 }
 
@@ -132,6 +140,12 @@ TEST_F(RenderOptionsTest, ValuesOutsideTheirRangesAreRefused) {
                                                       {"--size", "10 x 10"},
                                                       {"--max-depth", "-1"},
                                                       {"--threads", "1025"},
+                                                      {"--max-triangles", "-1"},
+                                                      {"--max-triangles", "1e6"},
+                                                      {"--max-triangles", "1073741825"},
+                                                      {"--max-texture-bytes", "-1"},
+                                                      {"--max-texture-bytes", "8GB"},
+                                                      {"--max-texture-bytes", "18446744073709551616"},
                                                       {"--punctual-scale", "-1"},
                                                       {"--punctual-scale", "Blender "},
                                                       {"--environment-scale", "-1"},

@@ -1,5 +1,6 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_codecs.h"
+#include "tests/support/restrictions.h"
 
 #include <initializer_list>
 #include <string_view>
@@ -73,6 +74,7 @@ TEST(HdrReader, RefusesRunsPastTheirRow) {
 }
 
 TEST(HdrReader, RefusesHeadersBeforeAllocating) {
+  const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
   EXPECT_THAT(messageOf(hdr("-Y 16384 +X 16384", {0})), HasSubstr("cannot be in a file"));
   EXPECT_THAT(messageOf(hdr("-Y 2000000000 +X 2000000000", {0})), HasSubstr("limit"));
   EXPECT_THAT(messageOf(hdr("-Y -1 +X 1", {0})), HasSubstr("damaged"));

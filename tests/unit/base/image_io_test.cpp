@@ -3,6 +3,8 @@
 #include "renderer/base/error.h"
 #include "renderer/base/rng.h"
 #include "renderer/base/tone_map.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/restrictions.h"
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
@@ -46,6 +48,15 @@ LayeredImage oneLayer(const ImageRgb& image) {
 std::string messageOf(std::span<const std::byte> encoded) {
   try {
     decodeImage(encoded, "picture");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string messageOf8(std::span<const std::byte> encoded) {
+  try {
+    decodeImage8(encoded, "picture");
   } catch (const InputError& error) {
     return error.what();
   }
@@ -152,43 +163,33 @@ TEST(ImageIo, ReadsJpeg) {
   for (const auto& pixel : image) EXPECT_EQ(glm::ivec4(pixel), glm::ivec4(128, 128, 128, 255));
 }
 
-TEST(ImageIo, RefusesJpegSizeThatItsBytesCannotHold) {
+TEST(ImageIo, RefusesJpegSizeThatItsBytesCannotHoldBeforeAllocating) {
   std::vector<std::byte> jpeg = greyJpeg();
-  jpeg[7 + 64 + 5] = std::byte{0xff};  // height
-  jpeg[7 + 64 + 7] = std::byte{0xff};  // width
-  EXPECT_THROW(decodeImage8(jpeg, "giant"), InputError);
+  jpeg[7 + 64 + 5] = std::byte{0x3f};  // height
+  jpeg[7 + 64 + 7] = std::byte{0x3f};  // width
+  const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
+  EXPECT_THAT(messageOf8(jpeg), HasSubstr("picture: 16136 x 16136 pixels cannot be in a file of"));
 }
 
-TEST(ImageIo, Png8RefusesSizeThatItsBytesCannotHold) {
+TEST(ImageIo, Png8RefusesSizeThatItsBytesCannotHoldBeforeAllocating) {
   std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
   png[17] = std::byte{0x10};  // width 0x00100010
   png[21] = std::byte{0x01};
-  EXPECT_THROW(decodeImage8(png, "giant"), InputError);
+  const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
+  EXPECT_THAT(messageOf8(png), HasSubstr("picture: has no valid header"));  // for stb
+  png[17] = png[21] = std::byte{0};
+  png[18] = png[22] = std::byte{0x3f};
+  EXPECT_THAT(messageOf8(png), HasSubstr("picture: 16144 x 16144 pixels cannot be in a file of"));
 }
 
-TEST(ImageIo, Png8RefusesChunkPastTheFile) {
+TEST(ImageIo, Png8RefusesChunkPastTheFileBeforeAllocating) {
   std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
   png[33] = std::byte{0x40};  // length of the first chunk after the header: 1 GB
-  try {
-    decodeImage8(png, "long");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("chunk"));
-  }
-}
-
-TEST(ImageIo, Png8RefusesAChunkOfGigabytesWhoseHeaderIsAllThereIs) {
-  std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
-  png[33] = std::byte{0x40};
+  const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
+  EXPECT_THAT(messageOf8(png), HasSubstr("picture: a PNG chunk reaches past the end of the file; copy"));
   constexpr std::size_t kFirstChunk = 33;
-  for (std::size_t header = 8; header < 12; ++header) {
-    const std::span cut = std::span(png).first(kFirstChunk + header);
-    try {
-      decodeImage8(cut, "cut");
-      FAIL();
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("past the end of the file"));
-    }
+  for (std::size_t header = 8; header < 12; ++header) {  // nothing of it is there but its header
+    EXPECT_THAT(messageOf8(std::span(png).first(kFirstChunk + header)), HasSubstr("a PNG chunk reaches past"));
   }
 }
 
@@ -213,6 +214,31 @@ TEST(Pfm, ReadsBothByteOrdersFromTheBottomRow) {
 TEST(Pfm, ScaleMultiplies) {
   const ImageRgb image = decodeImage(bytesOf(std::string_view("Pf 1 1 -2.5 \0\0\x80\x3f", 16)), "scaled");
   EXPECT_EQ(image.at(0, 0), Vec3(2.5f));
+}
+
+TEST(Pfm, RefusesHeadersBeforeAllocating) {
+  const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
+  EXPECT_THAT(messageOf(bytesOf("PF\n16384 16384\n-1\n")), HasSubstr("cannot be in a file of 18 bytes"));
+  EXPECT_THAT(messageOf(bytesOf("PF\n16384 16385\n-1\n")), HasSubstr("more than the limit"));
+}
+
+TEST(ImageIo, RefusesPicturesPastALimitOfDecodedBytes) {
+  const test::TemporaryDirectory folder;
+  const ImageRgb image(32, 16);
+  writePfm(folder / "a.pfm", image);
+  writeExr(folder / "a.exr", oneLayer(image));
+  std::string hdr = "#?RADIANCE\n\n-Y 16 +X 32\n" + std::string(32 * 16 * 4, '\0');
+  test::writeFile(folder / "a.hdr", hdr);
+  for (const char* name : {"a.pfm", "a.exr", "a.hdr"}) {
+    EXPECT_EQ(readImage(folder / name, 32 * 16 * 12).width(), 32) << name;
+    try {
+      readImage(folder / name, 32 * 16 * 12 - 1);
+      FAIL() << name;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string(name) + ": 32 x 16 pixels have 6144 bytes decoded"));
+      EXPECT_THAT(error.what(), HasSubstr("--max-texture-bytes"));
+    }
+  }
 }
 
 TEST(Pfm, RefusesBadHeaders) {

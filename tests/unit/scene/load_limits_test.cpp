@@ -1,4 +1,5 @@
 #include "renderer/base/error.h"
+#include "renderer/base/image_codecs.h"
 #include "renderer/base/image_io.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
@@ -71,6 +72,21 @@ TEST_F(LoadLimits, RefuseOneTexelMoreAndNameTheOption) {
   for (const char* file : kFiles) {
     EXPECT_THAT(refusalOf(file, {.maxTextureBytes = 127}), HasSubstr("--max-texture-bytes"));
   }
+}
+
+TEST_F(LoadLimits, HoldForTheEnvironment) {
+  test::GltfBuilder builder;
+  const std::size_t view = builder.addBufferView(encodePfm(ImageRgb(4, 2, Vec3(1))));
+  builder.json["extensions"]["CELLCUT_environment"] = {{"bufferView", view}};
+  builder.writeGlb(folder / "sky.glb");
+  EXPECT_EQ(refusalOf("sky.glb", {.maxTextureBytes = 96}), "was not refused");
+  EXPECT_EQ(refusalOf("sky.glb", {.maxTextureBytes = 95}),
+            "sky.glb: CELLCUT_environment: 4 x 2 pixels have 96 bytes decoded, more than 95, the limit "
+            "(--max-texture-bytes)");
+}
+
+TEST(LoadLimitsByDefault, LetEveryPictureThroughThatIsReadAtAll) {
+  EXPECT_GE(cellcut::LoadLimits{}.maxTextureBytes, kMaxImageBytes);
 }
 
 }  // namespace
