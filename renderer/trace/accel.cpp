@@ -135,7 +135,13 @@ void Accel::State::attach(const Mesh& mesh, unsigned id, bool partlyCovered) {
 Accel::Accel(const Scene& scene) : state_(std::make_unique<State>()) {
   // Without a thread count Embree limits no arena of ours.
   state_->device = rtcNewDevice(nullptr);
-  if (!state_->device) throw std::runtime_error("Embree cannot start on this processor");
+  if (!state_->device) {
+    const RTCError error = rtcGetDeviceError(nullptr);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error(error == RTC_ERROR_UNSUPPORTED_CPU
+                                 ? "Embree cannot start on this processor"
+                                 : "Embree cannot start (error " + std::to_string(error) + ")");
+  }
   rtcSetDeviceMemoryMonitorFunction(
       state_->device,
       [](void* state, ssize_t bytes, bool) {

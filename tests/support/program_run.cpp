@@ -12,9 +12,12 @@
 
 namespace cellcut::test {
 
-ProgramRun::ProgramRun(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+ProgramRun::ProgramRun(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                       const std::string& before)
     : err_(folder / "err.txt") {
-  std::vector<std::string> words{CELLCUT_PROGRAM};
+  std::vector<std::string> words;
+  if (!before.empty()) words = {"/bin/sh", "-c", before + "; exec \"$@\"", "sh"};
+  words.emplace_back(CELLCUT_PROGRAM);
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
@@ -26,7 +29,7 @@ ProgramRun::ProgramRun(const std::vector<std::string>& arguments, const std::fil
   constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, (folder / "out.txt").c_str(), kNew, 0600);
   posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, err_.c_str(), kNew, 0600);
-  const int failed = posix_spawn(&pid_, CELLCUT_PROGRAM, &streams, nullptr, argv.data(), environ);
+  const int failed = posix_spawn(&pid_, argv[0], &streams, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&streams);
   if (failed != 0) throw std::runtime_error("cannot start " CELLCUT_PROGRAM);
 }

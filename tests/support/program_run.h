@@ -18,8 +18,10 @@ struct ProgramEnd {
 class ProgramRun {
  public:
   /// Starts it with these arguments (without its name), its standard streams into files in `folder`.
+  /// \param before  shell commands that set limits for it: "ulimit -v 300000"
   /// \throws std::runtime_error if no process can be started
-  ProgramRun(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  ProgramRun(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+             const std::string& before = "");
   /// Kills it if it still runs.
   ~ProgramRun();
   ProgramRun(const ProgramRun&) = delete;
