@@ -10,11 +10,13 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <set>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace cellcut {
 namespace {
@@ -30,9 +32,9 @@ fs::path writeScene(const fs::path& file, std::size_t lights) {
   return file;
 }
 
-std::vector<std::string> renderArguments(const fs::path& scene, const fs::path& picture) {
-  return {"render", scene.string(), "-o", picture.string(), "--size", "320x180", "--spp",
-          "2",      "--max-depth",  "1",  "--seed",         "1"};
+std::vector<std::string> renderArguments(const fs::path& scene, const fs::path& picture, const fs::path& report) {
+  return {"render", scene.string(), "-o", picture.string(), "--size", "320x180",  "--spp",
+          "2",      "--max-depth",  "1",  "--seed",         "1",      "--report", report.string()};
 }
 
 std::set<std::string> namesIn(const fs::path& folder) {
@@ -43,7 +45,7 @@ std::set<std::string> namesIn(const fs::path& folder) {
 
 /// Decodes all of it; what is damaged or cut throws.
 glm::ivec2 sizeOfWholePicture(const fs::path& file) {
-  if (file.extension() == ".exr") {
+  if (file.extension() != ".png") {
     const ImageRgb image = readImage(file);
     return {image.width(), image.height()};
   }
@@ -51,14 +53,14 @@ glm::ivec2 sizeOfWholePicture(const fs::path& file) {
   return {image.width(), image.height()};
 }
 
-/// 200 times at night.
+/// 300 times at night.
 class SigintAtAnyMoment : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     fs::create_directory(output_);
     writeScene(scene_, 8);
     const auto start = std::chrono::steady_clock::now();
-    ProgramRun run(renderArguments(scene_, output_ / ("whole" + GetParam())), folder_.path());
+    ProgramRun run(renderArguments(scene_, output_ / ("whole" + GetParam()), output_ / "report.json"), folder_.path());
     ASSERT_EQ(run.wait().code, kDone) << run.err();
     undisturbed_ = std::chrono::steady_clock::now() - start;
     fs::remove_all(output_);
@@ -73,13 +75,13 @@ class SigintAtAnyMoment : public testing::TestWithParam<std::string> {
 
 TEST_P(SigintAtAnyMoment, LeavesAWholePictureOrNone) {
   const std::string name = "picture" + GetParam();
-  const fs::path picture = output_ / name;
+  const fs::path picture = output_ / name, report = output_ / "report.json";
   Rng random(2016);
   const int runs = test::isSixteenth() ? 4 : isNightly() ? 100 : 10;
   int whole = 0, killed = 0;
   for (int i = 0; i < runs; ++i) {
     fs::create_directory(output_);
-    ProgramRun run(renderArguments(scene_, picture), folder_.path());
+    ProgramRun run(renderArguments(scene_, picture, report), folder_.path());
     // A little past the end, for the moments after the last one that matters.
     std::this_thread::sleep_for(undisturbed_ * (1.1 * random.uniformDouble()));
     run.send(SIGINT);
@@ -89,12 +91,20 @@ TEST_P(SigintAtAnyMoment, LeavesAWholePictureOrNone) {
     EXPECT_TRUE(end.signal == 0 || end.signal == SIGINT) << what;
     EXPECT_TRUE(end.code == kDone || end.code == kFailed) << what;
     const std::set<std::string> names = namesIn(output_);
-    EXPECT_THAT(names, testing::AnyOf(testing::IsEmpty(), testing::ElementsAre(name))) << what;
+    // The report is written after the picture.
+    EXPECT_THAT(names, testing::AnyOf(testing::IsEmpty(), testing::ElementsAre(name),
+                                      testing::ElementsAre(name, "report.json")))
+        << what;
     const bool exists = names.contains(name);
     whole += exists;
     killed += end.signal != 0;
     if (end.signal == 0) {
       EXPECT_EQ(exists, end.code == kDone) << what;
+      EXPECT_EQ(exists, names.contains("report.json")) << what;
+    }
+    if (names.contains("report.json")) {
+      std::ifstream file(report);
+      EXPECT_TRUE(nlohmann::json::accept(file)) << what;
     }
     if (exists) {
       EXPECT_EQ(sizeOfWholePicture(picture), kSize) << what;
@@ -105,7 +115,7 @@ TEST_P(SigintAtAnyMoment, LeavesAWholePictureOrNone) {
   RecordProperty("killed", killed);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SigintAtAnyMoment, testing::Values(".exr", ".png"),
+INSTANTIATE_TEST_SUITE_P(All, SigintAtAnyMoment, testing::Values(".exr", ".pfm", ".png"),
                          [](const auto& ending) { return ending.param.substr(1); });
 
 TEST(Sigint, SecondOneQuitsAtOnce) {
@@ -115,7 +125,7 @@ TEST(Sigint, SecondOneQuitsAtOnce) {
   fs::create_directory(output);
   // Half a second of loading and building, so that the second signal comes before the first is obeyed.
   const fs::path scene = writeScene(folder / "kinds.glb", 20'000);
-  test::ProgramRun run(renderArguments(scene, output / "picture.exr"), folder.path());
+  test::ProgramRun run(renderArguments(scene, output / "picture.exr", output / "report.json"), folder.path());
   while (run.runs() && !run.handles(SIGINT)) std::this_thread::sleep_for(0.1ms);
   run.send(SIGINT);
   while (run.runs() && run.err().empty()) std::this_thread::sleep_for(0.1ms);
