@@ -30,6 +30,8 @@ constexpr float toUnitFloat(std::uint32_t bits) {
 constexpr double toUnitDouble(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
+/// The largest double below 1: where what is left of a random number after a choice would be rounded up to 1.
+inline constexpr double kAlmostOne = 1 - 0x1p-53;
 
 /// A stream of independent numbers from one seed (SplitMix64: Steele et al. 2014). For tests, recipes and pilots.
 class Rng {

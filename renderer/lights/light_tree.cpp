@@ -1,6 +1,7 @@
 #include "renderer/lights/light_tree.h"
 
 #include "renderer/base/octahedral.h"
+#include "renderer/base/rng.h"
 
 #include <array>
 #include <numeric>
@@ -254,7 +255,6 @@ LightTree::Shares LightTree::intensityShares(NodeId id) const {
 }
 
 SampledLeaf LightTree::sampleByIntensity(NodeId id, std::uint32_t first, std::uint32_t count, double u) const {
-  constexpr double kAlmostOne = 1 - 0x1p-53;
   double pmf = 1;
   while (count > kBlock) {
     const auto [toLeft, toRight] = intensityShares(id);

@@ -1,5 +1,7 @@
 #include "renderer/sampling/alias_table.h"
 
+#include "renderer/base/rng.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -44,7 +46,6 @@ AliasTable::AliasTable(std::span<const double> weights) {
 }
 
 AliasTable::Sample AliasTable::sample(double u) const {
-  constexpr double kAlmostOne = 1 - 0x1p-53;
   const double scaled = u * static_cast<double>(bins_.size());
   const std::size_t i = std::min(static_cast<std::size_t>(scaled), bins_.size() - 1);
   const double inBin = scaled - static_cast<double>(i), own = static_cast<double>(bins_[i].own);

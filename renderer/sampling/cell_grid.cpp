@@ -46,7 +46,8 @@ GridGeometry::GridGeometry(const Bounds& box, int resolution) {
   const glm::dvec3 upper = box.empty() ? glm::dvec3(0) : glm::dvec3(box.upper);
   const glm::dvec3 extent = upper - lower;
   const double longest = std::max({extent.x, extent.y, extent.z});
-  // A box without extent is one cell, of the size of its coordinates so that it scales with the scene.
+  // A box without extent is one cell, of the size of its coordinates so that it scales with the scene. The origin alone has
+  // no length to take: it is the middle of its cell, whatever that measures.
   const double largest = std::max({std::abs(lower.x), std::abs(lower.y), std::abs(lower.z)});
   size_ = longest > 0 ? longest / resolution : (largest > 0 ? largest : 1);
   inverseSize_ = 1 / size_;

@@ -43,6 +43,7 @@ std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Regi
   cluster.leastDistance = std::max({distance - clusterRadius, region.radius, kLeastShare * clusterRadius});
   // A point light at the point itself has no finite estimate: it is kept, and found to send nothing when it is sampled.
   cluster.estimate = mean > 0 ? std::min(node.intensity() * cosine / mean / mean, kMaxWeight) : node.intensity();
+  // Too faint or too far for a float to hold: 0 would say that it cannot reach the region.
   if (!(cluster.estimate > 0)) cluster.estimate = std::numeric_limits<float>::min();
   return cluster;
 }

@@ -76,6 +76,7 @@ template <class V, class M>
 V localEstimates(V intensity, V radius, V distance, V cosTheta, M twoSided, V cosO, V sinO, V cosE, V cosU, V sinU) {
   const hn::DFromV<V> d;
   const auto one = hn::Set(d, 1.0f), zero = hn::Zero(d), margin = hn::Set(d, kCosineMargin);
+  // Of no meaning but > 0: it makes a quotient of 0 / 0 be 0, and an estimate that underflows not say "cannot reach".
   const auto smallest = hn::Set(d, std::numeric_limits<float>::min());
   cosTheta = hn::IfThenElse(twoSided, hn::Abs(cosTheta), cosTheta);
   const auto sinTheta = sinesAbove(cosTheta);

@@ -6,12 +6,11 @@
 /// child by child.
 #pragma once
 
+#include "renderer/base/rng.h"
 #include "renderer/sampling/cut.h"
 #include "renderer/sampling/light_sampler.h"
 
 namespace cellcut {
-
-inline constexpr double kAlmostOne = 1 - 0x1p-53;
 
 /// The importance of nodes at a point: their estimate there × receiverCosine, or where a lobe is given × how much of it
 /// reflects, which has the cosine in it. 0 only if no light of the node can contribute.
