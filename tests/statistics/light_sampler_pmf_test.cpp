@@ -38,46 +38,31 @@ class LightSamplerPmf : public StrategyAndLights {
 
 TEST_P(LightSamplerPmf, SumsToOneOrNoLightReachesThePoint) {
   const std::array lightCounts{1, 2, 33, 1024};
-  const double limit = criticalZ(lightCounts.size() * pointCount());
   forEachPoint(lightCounts, [&](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
-    const std::vector<double> pmf = allPmfs(sampler, lights, point);
-    const double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
-    // Each of at most 1024 probabilities is rounded to a float: 6e-8 of it.
-    constexpr double rounding = 1e-5;
-    if (!variant().canEndInNothing(point)) {
-      EXPECT_NEAR(sum, sampler.sample(point, 0.5).has_value() ? 1 : 0, rounding);
-      return;
-    }
-    // A descent by bounds can end where no light is left: what is missing is the probability of no light.
-    const std::size_t n = affordable(sampleShare(40'000));
-    std::size_t none = 0;
-    Rng rng(seed());
-    for (std::size_t i = 0; i < n; ++i) none += !sampler.sample(point, rng.uniformDouble());
-    EXPECT_LE(sum, 1 + rounding);
-    const double missing = std::max(0.0, 1 - sum);
-    const auto samples = static_cast<double>(n);
-    // Of few that are expected the tails are longer than a normal variable's: Bernstein's inequality.
-    EXPECT_NEAR(static_cast<double>(none), missing * samples,
-                limit * std::sqrt(samples * missing * (1 - std::min(1.0, missing))) +
-                    (missing > 0 ? limit * limit / 3 : 0) + rounding * samples);
+    expectSumToOne(variant(), sampler, point, allPmfs(sampler, lights, point), 40'000,
+                   lightCounts.size() * pointCount());
   });
 }
 
 TEST_P(LightSamplerPmf, IsTheProbabilityThatASampleCarries) {
-  forEachPoint(std::array{1, 2, 33}, [&](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
-    Rng rng(seed());
-    std::vector<double> numbers{0, 0x1p-53, 0x1p-24, kLastFloat, kLastDouble};
-    for (std::size_t i = 0; i < sampleShare(200); ++i) numbers.push_back(rng.uniformDouble());
-    for (const double u : numbers) {
-      const auto sample = sampler.sample(point, u);
-      if (!sample) continue;
-      ASSERT_LT(static_cast<std::size_t>(sample->light), lights.size());
-      ASSERT_GT(sample->pmf, 0) << "u = " << u;
-      const float queried = sampler.pmf(point, sample->light);
-      // A few roundings in a different order of sums.
-      ASSERT_NEAR(queried / sample->pmf, 1, 1e-5) << "u = " << u;
-    }
-  });
+  forEachPoint(std::array{1, 2, 33, 1024},
+               [&](const Lights& lights, const LightSampler& sampler, const ShadingPoint& point) {
+                 Rng rng(seed());
+                 std::vector<double> numbers{0, 0x1p-53, 0x1p-24, kLastFloat, kLastDouble};
+                 // Every light costs time at every draw and every query: fewer of them by day.
+                 const bool isSlow = variant().strategy == Strategy::kProportional && lights.size() > 100;
+                 for (std::size_t i = 0; i < sampleShare(isSlow ? byDepth(20, 200) : 200); ++i)
+                   numbers.push_back(rng.uniformDouble());
+                 for (const double u : numbers) {
+                   const auto sample = sampler.sample(point, u);
+                   if (!sample) continue;
+                   ASSERT_LT(static_cast<std::size_t>(sample->light), lights.size());
+                   ASSERT_GT(sample->pmf, 0) << "u = " << u;
+                   const float queried = sampler.pmf(point, sample->light);
+                   // A few roundings in a different order of sums.
+                   ASSERT_NEAR(queried / sample->pmf, 1, 1e-5) << "u = " << u;
+                 }
+               });
 }
 
 TEST_P(LightSamplerPmf, IsPositiveForEveryLightThatContributes) {

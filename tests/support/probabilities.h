@@ -2,17 +2,25 @@
 /// What a strategy says of every light at a point.
 #pragma once
 
-#include "renderer/sampling/light_sampler.h"
+#include "tests/support/strategies.h"
 
+#include <span>
 #include <vector>
 
 namespace cellcut::test {
 
 std::vector<double> allPmfs(const LightSampler& sampler, const Lights& lights, const ShadingPoint& point);
 
-/// Expects what holds at any point whatever: probabilities that add up to no more than 1, one above 0 for every light
-/// that contributes, and draws that carry the probability that is queried.
+/// Expects that the probabilities of all lights add up to 1 less that of no light, which is counted in draws where a descent
+/// can end in nothing; to 0 where no light is ever drawn.
+/// \param comparisons  how many points are looked at in the test, this one included
+void expectSumToOne(const SamplerVariant& variant, const LightSampler& sampler, const ShadingPoint& point,
+                    std::span<const double> pmf, std::size_t draws, std::size_t comparisons);
+
+/// Expects what holds at any point whatever: probabilities that add up as above, one above 0 for every light that
+/// contributes, and draws that carry the probability that is queried.
 /// \param reach  lights below this share of what all contribute may have a probability of 0
-void expectSoundPmfs(const LightSampler& sampler, const Lights& lights, const ShadingPoint& point, double reach = 0);
+void expectSoundPmfs(const SamplerVariant& variant, const LightSampler& sampler, const Lights& lights,
+                     const ShadingPoint& point, double reach = 0);
 
 }  // namespace cellcut::test

@@ -239,6 +239,18 @@ void addLights(Scene& scene, LightMix mix, int count, std::uint64_t seed) {
   }
 }
 
+void addLightsAt(Scene& scene, LightMix mix, std::span<const Vec3> positions, std::uint64_t seed) {
+  Rng rng(seed);
+  if (mix == LightMix::kTriangle) addMesh(scene, addMaterial(scene, emitter(Vec3(1), true)));
+  for (const Vec3& p : positions) {
+    if (mix == LightMix::kPoint) scene.pointLights.push_back({p, Vec3(1)});
+    if (mix == LightMix::kSpot) scene.spotLights.push_back({p, unitVector(rng), Vec3(1), 0.9f, 0.2f});
+    if (mix != LightMix::kTriangle) continue;
+    const float size = 0.1f * maxComponent(glm::abs(p));
+    appendTriangle(scene.meshes.back(), p, p + size * Vec3(1, 0, 0.3f), p + size * Vec3(-0.2f, 0.9f, 0.1f));
+  }
+}
+
 Scene stage(LightMix mix, int count, std::uint64_t seed) {
   Scene scene;
   const MaterialId grey = addMaterial(scene, lambertian({0.7f, 0.6f, 0.5f}));

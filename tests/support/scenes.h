@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace cellcut::test {
@@ -48,6 +49,13 @@ std::string nameOf(LightMix mix);
 /// of each kind for kAll. Seen from within 0.3 of the origin no triangle hides another. A count of environment lights
 /// is the number of texels, which for up to 64 is the number of tiles.
 void addLights(Scene& scene, LightMix mix, int count, std::uint64_t seed);
+
+/// The kinds that have a place.
+inline constexpr std::array kLocalMixes{LightMix::kPoint, LightMix::kSpot, LightMix::kTriangle};
+/// Adds one light of a local kind at each position, 1 W/sr or 1 W/(m² sr): spots that shine in random directions; triangles
+/// that shine from both sides, with their first corner there and edges of about a tenth of the position's largest
+/// coordinate.
+void addLightsAt(Scene& scene, LightMix mix, std::span<const Vec3> positions, std::uint64_t seed);
 
 /// A room without a ceiling around the origin: floor, two walls, a box and a rough metal ball, with addLights around it
 /// and a camera that sees all of it. Shadows and interreflection everywhere.

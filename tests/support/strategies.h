@@ -25,6 +25,8 @@ struct SamplerVariant {
     return strategy == Strategy::kLightTree ||
            (hasCuts && (settings.inCluster == InCluster::kDescent || point.lobe.share > 0));
   }
+  /// Point-cut finds a cut for each sample, which costs a hundred times a sample of the others: it gets a sixteenth.
+  std::size_t affordable(std::size_t samples) const { return strategy == Strategy::kPointCut ? samples / 16 : samples; }
   friend void PrintTo(const SamplerVariant& variant, std::ostream* stream) { *stream << variant.name; }
 };
 
@@ -50,10 +52,7 @@ class StrategyAndLights : public testing::TestWithParam<std::tuple<SamplerVarian
   std::unique_ptr<LightSampler> samplerOf(const Lights& lights) const {
     return makeLightSampler(variant().strategy, lights, variant().settings);
   }
-  /// Point-cut finds a cut for each sample, which costs a hundred times a sample of the others: it gets a sixteenth.
-  std::size_t affordable(std::size_t samples) const {
-    return variant().strategy == Strategy::kPointCut ? samples / 16 : samples;
-  }
+  std::size_t affordable(std::size_t samples) const { return variant().affordable(samples); }
   LightMix mix() const { return std::get<1>(GetParam()); }
   /// Differs from mix to mix, so that no two sets are alike.
   std::uint64_t seed() const { return 1000 + static_cast<std::uint64_t>(mix()); }

@@ -1,4 +1,5 @@
 #include "renderer/base/error.h"
+#include "renderer/lights/lights.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_directory.h"
@@ -273,24 +274,35 @@ TEST_F(GltfLoader, WarnsWhenTheFilesOwnFloatsAreCoarse) {
 }
 
 TEST_F(GltfLoader, SkipsAndCountsDegenerateTriangles) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   GltfBuilder file;
-  file.addRoot({{"mesh", file.addMesh(file.primitive({{0, 0, 0},
-                                                      {1, 0, 0},
-                                                      {0, 1, 0},  // sound
-                                                      {0, 0, 0},
-                                                      {1, 1, 1},
-                                                      {2, 2, 2},  // a line
-                                                      {1, 1, 1},
-                                                      {1, 1, 1},
-                                                      {0, 1, 0},  // two corners alike
-                                                      {nan, 0, 0},
-                                                      {1, 0, 0},
-                                                      {0, 1, 0}}))}});  // not a number
+  auto primitive = file.primitive({{0, 0, 0},
+                                   {1, 0, 0},
+                                   {0, 1, 0},  // sound
+                                   {0, 0, 0},
+                                   {1, 1, 1},
+                                   {2, 2, 2},  // a line
+                                   {1, 1, 1},
+                                   {1, 1, 1},
+                                   {0, 1, 0},  // two corners alike
+                                   {nan, 0, 0},
+                                   {1, 0, 0},
+                                   {0, 1, 0},  // not a number
+                                   {0, 0, 0},
+                                   {1, inf, 0},
+                                   {0, 1, 0},  // infinite
+                                   {0, 0, 0},
+                                   {1, 0, 0},
+                                   {0, 1, -inf}});
+  // Lights are no other triangles.
+  primitive["material"] = file.add("materials", {{"emissiveFactor", {1, 1, 1}}});
+  file.addRoot({{"mesh", file.addMesh(primitive)}});
   const Scene scene = load(file);
   EXPECT_EQ(scene.triangleCount(), 1u);
-  EXPECT_EQ(scene.counts.degenerateTriangles, 3u);
-  EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("3 triangles")));
+  EXPECT_EQ(scene.counts.degenerateTriangles, 5u);
+  EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("5 triangles")));
+  EXPECT_EQ(Lights(scene).size(), 1u);
+  EXPECT_TRUE(isFinite(scene.bounds.lower) && isFinite(scene.bounds.upper));
 }
 
 TEST_F(GltfLoader, TinyTrianglesAreNotDegenerate) {
