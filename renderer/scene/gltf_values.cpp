@@ -30,9 +30,11 @@ glm::vec<N, double> numbersOr(const tinygltf::Value& object, const char* key, gl
   if (!value) return otherwise;
   const auto refuse = [&] { throw InputError(place, std::string(key) + " must be " + std::to_string(N) + " numbers"); };
   if (value->ArrayLen() != static_cast<std::size_t>(N)) refuse();
+  const auto& numbers = value->Get<tinygltf::Value::Array>();
   for (int i = 0; i < N; ++i) {
-    if (!value->Get(i).IsNumber()) refuse();
-    otherwise[i] = value->Get(i).GetNumberAsDouble();
+    const tinygltf::Value& number = numbers[static_cast<std::size_t>(i)];
+    if (!number.IsNumber()) refuse();
+    otherwise[i] = number.GetNumberAsDouble();
   }
   return otherwise;
 }

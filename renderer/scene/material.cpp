@@ -18,6 +18,10 @@ auto interpolate(const Attribute& values, const SurfaceCoordinates& at) {
   return b0 * values[t.x] + at.barycentric.x * values[t.y] + at.barycentric.y * values[t.z];
 }
 
+bool hasTextures(const Material& material) {
+  return kCanHaveTextures && material.slots;
+}
+
 TexelEncoding encodingOf(TextureUse use) {
   switch (use) {
     case TextureUse::kBaseColor:
@@ -32,9 +36,9 @@ TexelEncoding encodingOf(TextureUse use) {
   return TexelEncoding::kLinear;
 }
 
-/// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent.
+/// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent. Most materials have no texture:
+/// ask hasTextures() first.
 Vec4 slotValue(const Scene& scene, TextureUse use, const SurfaceCoordinates& at) {
-  if (!kCanHaveTextures) return Vec4(1.0f);
   const TextureSlot& slot = materialOf(scene, at).slot(use);
   if (!slot.texture) return Vec4(1.0f);
   const std::vector<Vec2>& texCoords = at.mesh->texCoords[slot.texCoord];
@@ -44,7 +48,8 @@ Vec4 slotValue(const Scene& scene, TextureUse use, const SurfaceCoordinates& at)
 
 Vec4 baseColorAlpha(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
-  Vec4 color = material.baseColor * slotValue(scene, TextureUse::kBaseColor, at);
+  Vec4 color = material.baseColor;
+  if (hasTextures(material)) color *= slotValue(scene, TextureUse::kBaseColor, at);
   if (!at.mesh->colors.empty()) color *= interpolate(at.mesh->colors, at);
   return color;
 }
@@ -97,7 +102,7 @@ bool anyTexel(const TexelFootprint& area, const auto& lights) {
 
 Vec3 emission(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
-  if (!kCanHaveTextures || !material.slots) return material.emission;
+  if (!hasTextures(material)) return material.emission;
   return material.emission * Vec3(slotValue(scene, TextureUse::kEmission, at));
 }
 
@@ -121,7 +126,7 @@ Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3&
   Vec3 normal = interpolated / length;
 
   const Material& material = materialOf(scene, at);
-  if (kCanHaveTextures && material.slot(TextureUse::kNormal).texture && !at.mesh->tangents.empty()) {
+  if (hasTextures(material) && material.slot(TextureUse::kNormal).texture && !at.mesh->tangents.empty()) {
     const Vec4 tangent4 = interpolate(at.mesh->tangents, at);
     const Vec3 inPlane = Vec3(tangent4) - glm::dot(Vec3(tangent4), normal) * normal;
     const float tangentLength = glm::length(inPlane);
@@ -147,14 +152,17 @@ Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
   const Material& material = materialOf(scene, at);
   const Vec3 color = baseColor(scene, at);
   if (!kCanHaveGgx || !canReflect(material)) return Bsdf(BsdfParameters{.diffuse = color});
-  const Vec4 metallicRoughness = slotValue(scene, TextureUse::kMetallicRoughness, at);
-  const float metallic = std::clamp(material.metallic * metallicRoughness.z, 0.0f, 1.0f);
-  const float specular = material.specular * slotValue(scene, TextureUse::kSpecular, at).w;
+  float metallic = material.metallic, roughness = material.roughness, specular = material.specular;
+  Vec3 specularColor = material.specularColor;
+  if (hasTextures(material)) {
+    const Vec4 metallicRoughness = slotValue(scene, TextureUse::kMetallicRoughness, at);
+    metallic *= metallicRoughness.z;
+    roughness *= metallicRoughness.y;
+    specular *= slotValue(scene, TextureUse::kSpecular, at).w;
+    specularColor *= Vec3(slotValue(scene, TextureUse::kSpecularColor, at));
+  }
   const float reflectance = (material.ior - 1) / (material.ior + 1);
-  const Vec3 dielectricF0 = glm::min(Vec3(reflectance * reflectance) * material.specularColor *
-                                         Vec3(slotValue(scene, TextureUse::kSpecularColor, at)),
-                                     Vec3(1.0f)) *
-                            specular;
+  const Vec3 dielectricF0 = glm::min(reflectance * reflectance * specularColor, Vec3(1.0f)) * specular;
 
   BsdfParameters parameters;
   parameters.diffuse = color * (1 - metallic);
@@ -162,7 +170,7 @@ Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at) {
   parameters.f90 = specular * (1 - metallic) + metallic;
   parameters.dielectricF0 = maxComponent(dielectricF0);
   parameters.dielectricF90 = specular;
-  parameters.roughness = std::clamp(material.roughness * metallicRoughness.y, 0.0f, 1.0f);
+  parameters.roughness = roughness;
   return Bsdf(parameters);
 }
 
