@@ -234,7 +234,9 @@ void finishMeshes(Scene& scene) {
 
 Vec3 placed(const glm::dvec3& position, const SceneDraft& draft, const char* what, const std::string& name = {}) {
   const Vec3 p(position - draft.scene.origin);
-  if (!isFinite(p)) throw InputError(draft.name, std::string(what) + name + " is too far away to be placed");
+  if (!isFinite(p))
+    throw InputError(draft.name,
+                     std::string(what) + name + " is too far away to be placed; move it or scale the scene down");
   return p;
 }
 

@@ -75,7 +75,7 @@ void addLight(const PlacedLight& placed, SceneDraft& draft) {
     if (const std::optional<Vec3> axis = axisOf(placed, scene))
       scene.directionalLights.push_back({*axis, placed.power});
   } else {
-    placed.refuse("is neither point, spot nor directional");
+    placed.refuse("is neither point, spot nor directional; export the file again");
   }
 }
 

@@ -28,9 +28,10 @@ struct Reader {
     const tinygltf::Value* info = member(object, key);
     if (!info) return {};
     const std::optional<int> index = indexMember(*info, "index", place);
-    if (!index) throw InputError(place, std::string(key) + " names no texture");
+    if (!index) throw InputError(place, std::string(key) + " names no texture; export the file again");
     if (static_cast<std::size_t>(*index) >= document.model.textures.size()) {
-      throw InputError(place, std::string(key) + ": texture " + std::to_string(*index) + " does not exist");
+      throw InputError(
+          place, std::string(key) + ": texture " + std::to_string(*index) + " does not exist; export the file again");
     }
     const tinygltf::Value* extensions = member(*info, "extensions");
     return textures.slot({*index, indexMember(*info, "texCoord", place).value_or(0),
@@ -100,7 +101,8 @@ Material readMaterial(const Reader& reader, const tinygltf::Material& source) {
   readEmission(reader, source, material);
   material.setSlot(TextureUse::kNormal, reader.slot(source.normalTexture));
   material.normalScale = static_cast<float>(source.normalTexture.scale);
-  if (!std::isfinite(material.normalScale)) throw InputError(reader.place, "the normal texture's scale is too large");
+  if (!std::isfinite(material.normalScale))
+    throw InputError(reader.place, "the normal texture's scale is too large; choose a smaller one");
   material.alphaMode = alphaModeOf(source.alphaMode, reader.place);
   material.alphaCutoff =
       static_cast<float>(reader.clamped(source.alphaCutoff, 0, std::numeric_limits<float>::max(), "alphaCutoff"));

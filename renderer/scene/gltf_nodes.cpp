@@ -20,7 +20,7 @@ bool isFinite(const glm::dmat4& m) {
 }
 
 glm::dmat4 matrixOf(const std::vector<double>& numbers, const std::string& place) {
-  if (numbers.size() != 16) throw InputError(place, "matrix must be 16 numbers");
+  if (numbers.size() != 16) throw InputError(place, "matrix must be 16 numbers; export the file again");
   glm::dmat4 m;
   for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = numbers[static_cast<std::size_t>(i)];
   if (m[0].w != 0 || m[1].w != 0 || m[2].w != 0 || m[3].w != 1) {
@@ -40,7 +40,8 @@ glm::dmat4 localTransform(const GltfDocument& document, std::size_t index) {
   const glm::dvec4 rotation = vectorOr<4>(node.rotation, glm::dvec4(0, 0, 0, 1), place + ": rotation");
   const glm::dvec3 scale = vectorOr<3>(node.scale, glm::dvec3(1), place + ": scale");
   const double length = glm::length(rotation);
-  if (!(length > 0 && std::isfinite(length))) throw InputError(place, "rotation is no quaternion");
+  if (!(length > 0 && std::isfinite(length)))
+    throw InputError(place, "rotation is no quaternion; export the file again");
   const glm::dvec4 q = rotation / length;
   glm::dmat4 m = glm::mat4_cast(glm::dquat(q.w, q.x, q.y, q.z));
   for (int axis = 0; axis < 3; ++axis) m[axis] *= scale[axis];
@@ -58,7 +59,8 @@ std::vector<GltfNode> activeNodes(const GltfDocument& document) {
   const auto add = [&](int index, const glm::dmat4& parent) {
     const auto node = static_cast<std::size_t>(index);
     const glm::dmat4 world = parent * localTransform(document, node);
-    if (!isFinite(world)) throw InputError(placeOf(document, "nodes", node), "its transform is not finite");
+    if (!isFinite(world))
+      throw InputError(placeOf(document, "nodes", node), "its transform is not finite; choose smaller scales");
     nodes.push_back({node, world});
   };
   // Breadth first, with the result itself as the queue. checkDocument made sure that these are trees.

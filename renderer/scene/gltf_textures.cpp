@@ -30,7 +30,7 @@ void applyTransform(const tinygltf::Value& transform, const std::string& place, 
   slot.uvLinear = glm::mat2(Vec2(scale.x * glm::dvec2(c, -s)), Vec2(scale.y * glm::dvec2(s, c)));
   const auto isFinite2 = [](Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); };
   if (!isFinite2(slot.uvOffset) || !isFinite2(slot.uvLinear[0]) || !isFinite2(slot.uvLinear[1])) {
-    throw InputError(place, "KHR_texture_transform is larger than a float can hold");
+    throw InputError(place, "KHR_texture_transform is larger than a float can hold; choose a smaller one");
   }
 }
 
