@@ -53,6 +53,14 @@ TEST(ScriptFile, MoreThanAMegabyteIsRefused) {
   EXPECT_THAT(refusalOf(folder / "script.txt"), HasSubstr("script.txt: has 1048577 bytes, more than the limit"));
 }
 
+TEST(ScriptFile, WhatIsNoScriptIsRefusedInOneLineOfText) {
+  const test::TemporaryDirectory folder;
+  std::ofstream(folder / "script.txt") << std::string(3, '\0') + "\x1b[2J" + std::string(1000, 'x');
+  EXPECT_THAT(refusalOf(folder / "script.txt"),
+              testing::EndsWith("script.txt:1: no action '????[2J" + std::string(73, 'x') +
+                                "'; cellcut view --help lists them"));
+}
+
 TEST(ScriptRecorder, WhatStandsInTheFileIsReadBack) {
   const test::TemporaryDirectory folder;
   ScriptRecorder recorder(folder / "record.txt");

@@ -3,6 +3,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <sstream>
@@ -51,6 +52,14 @@ std::vector<std::string> split(const std::string& text, const std::string& place
   return words;
 }
 
+/// A word as it may be shown: that of a file that is no script is neither short nor text.
+std::string shown(const std::string& word) {
+  std::string text = word.substr(0, 80);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 void checkAction(const ScriptAction& action, const std::string& place) {
   if (action.words[0] == "wait") {
     const bool idle = action.words.size() == 2 && action.words[1] == "idle";
@@ -64,7 +73,7 @@ void checkAction(const ScriptAction& action, const std::string& place) {
     throw InputError(place, "'" + action.words[0] + "' takes " + std::to_string(verb.words - 1) +
                                 " words; names of several words stand in quotes");
   }
-  throw InputError(place, "no action '" + action.words[0].substr(0, 80) + "'; cellcut view --help lists them");
+  throw InputError(place, "no action '" + shown(action.words[0]) + "'; cellcut view --help lists them");
 }
 
 std::optional<double> asNumber(const std::string& text) {
