@@ -10,9 +10,9 @@
 namespace cellcut::test {
 namespace {
 
-constexpr double kMostSeconds = 2;
 constexpr std::size_t kMostBytes = std::size_t{512} << 20;
 constexpr unsigned kHangSeconds = 60;
+const unsigned kSlowness = isSanitized() ? 10 : 1;
 
 /// Of a line like "VmHWM:  349456 kB"; 0 without it.
 std::size_t statusBytes(const std::string& key) {
@@ -31,15 +31,16 @@ void forgetPeak() {
 
 }  // namespace
 
-HostileBudget::HostileBudget(std::string what) : what_(std::move(what)), start_(std::clock()) {
+HostileBudget::HostileBudget(std::string what, double mostSeconds)
+    : what_(std::move(what)), mostSeconds_(kSlowness * mostSeconds), start_(std::clock()) {
   forgetPeak();
   before_ = statusBytes("VmHWM:");
-  alarm(kHangSeconds);
+  alarm(kSlowness * kHangSeconds);
 }
 
 HostileBudget::~HostileBudget() {
   alarm(0);
-  EXPECT_LT(seconds(), isSanitized() ? 10 * kMostSeconds : kMostSeconds) << what_;
+  EXPECT_LT(seconds(), mostSeconds_) << what_;
   if (!isSanitized()) {
     EXPECT_LT(bytes(), kMostBytes) << what_;
   }

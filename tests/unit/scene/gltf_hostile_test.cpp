@@ -201,7 +201,8 @@ TEST_F(HostileGltf, AChainOf200000NodesLoads) {
   file.json["nodes"] = std::move(nodes);
   file.json["scenes"][0]["nodes"] = {0};
   for (const auto& path : {file.writeGlb(folder / "chain.glb"), file.writeGltf(folder / "chain.gltf")}) {
-    const test::HostileBudget budget(path.filename());
+    // A second where nothing else runs. Most of it is memory's first touch, which beside other programs takes twice that.
+    const test::HostileBudget budget(path.filename(), 4);
     const Scene scene = loadScene(path);
     EXPECT_EQ(scene.triangleCount(), 1u);
     EXPECT_EQ(scene.origin.z, kDepth - 1);

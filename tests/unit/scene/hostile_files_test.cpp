@@ -32,6 +32,13 @@ std::string refusalOf(const std::function<void()>& load) {
   return "was not refused";
 }
 
+TEST(HostileBudget, SeesMemoryThatWasGivenBack) {
+  const test::HostileBudget budget("nothing");
+  constexpr std::size_t kBytes = std::size_t{100} << 20;
+  EXPECT_EQ(std::vector<char>(kBytes, 'x').back(), 'x');
+  EXPECT_GT(budget.bytes(), kBytes * 9 / 10);
+}
+
 class HostileFiles : public testing::Test {
  protected:
   std::string refusalOfScene(const fs::path& file) const {
