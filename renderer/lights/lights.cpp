@@ -134,7 +134,8 @@ std::optional<LightSample> Lights::sampleDistant(LightKind kind, std::size_t ind
   sample.wi = direction.direction;
   sample.pdf = direction.pdf;
   sample.delta = false;
-  if (isBlack(sample.radiance)) return std::nullopt;
+  // The density of a texel of less than 10⁻⁴⁵ of its tile is none: no float holds it.
+  if (isBlack(sample.radiance) || !(sample.pdf > 0)) return std::nullopt;
   return sample;
 }
 

@@ -47,6 +47,8 @@ const Sky kSkies[] = {
     {"PoleAndSeam", 64, 32,
      [](int x, int y, Rng&) { return y == 0 || y == 31 || x == 0 ? Vec3(50, 5, 1) : Vec3(0.01f); }},
     {"Decades", 48, 24, [](int, int, Rng& rng) { return Vec3(std::pow(10.0f, rng.uniform(-5, 5))); }},
+    {"SixtyDecades", 48, 24, [](int, int, Rng& rng) { return Vec3(std::pow(10.0f, rng.uniform(-30, 30))); }},
+    {"Gradient", 41, 24, [](int x, int, Rng&) { return Vec3(std::pow(10.0f, static_cast<float>(x - 20))); }},
 };
 
 class Skies : public testing::TestWithParam<Sky> {
@@ -197,7 +199,7 @@ TEST(EnvironmentLight, BlackSkyIsNoLight) {
 
 TEST(EnvironmentLight, TileThatPeeksOverTheHorizonIsNotLost) {
   // Texels of a large picture are 4e-4 wide: a cone kept as a float's cosine is wrong by a tenth of that.
-  for (const int width : {64, 1024, 8192}) {
+  for (const int width : {64, 1024, isSixteenth() ? 2048 : 8192}) {
     Scene scene;
     scene.environment = Environment{ImageRgb(width, width / 2), 0.3f};
     const int row = width / 5;
@@ -237,6 +239,27 @@ TEST(EnvironmentLight, DimTexelAmongBrightOnesKeepsItsDensity) {
       ASSERT_GT(light.pdf(*tile, uv), 0);
     }
   }
+}
+
+TEST(EnvironmentLight, TexelsTooDimForADensityAreNotSampled) {
+  // Beside a sun a tile of 57 decades, dimmest where the numbers are 0.
+  Scene scene;
+  scene.environment = Environment{ImageRgb(64, 32, Vec3(1e-30f)), 0};
+  scene.environment->radiance.at(40, 16) = Vec3(1e30f);
+  for (int y = 16; y < 24; ++y) {
+    for (int x = 8; x < 16; ++x) {
+      scene.environment->radiance.at(x, y) = Vec3(std::pow(10.0f, static_cast<float>(8 * (x - 11) - 7)));
+    }
+  }
+  finish(scene);
+  const Lights lights(scene);
+  std::size_t none = 0;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const auto sample = lights.sample(static_cast<LightId>(i), Vec3(0), Vec2(0));
+    none += !sample;
+    if (sample) EXPECT_GT(sample->pdf, 0);
+  }
+  EXPECT_GT(none, 0u);
 }
 
 TEST(EnvironmentLight, DensitiesOfADimSkyAreThoseOfABrightOne) {
