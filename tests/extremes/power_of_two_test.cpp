@@ -1,5 +1,7 @@
 // Proof 6: a power of two in the unit of length or of radiance changes no digit of any probability and of any picture.
 // No absolute epsilon passes this.
+#include "renderer/base/rng.h"
+#include "renderer/scene/tangents.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
 #include "tests/support/scaling.h"
@@ -12,10 +14,38 @@
 namespace cellcut::test {
 namespace {
 
-/// Lights of all kinds, and surfaces whose mirrored lights are asked for: metals and a dielectric of roughness 0.2 to
-/// 0.5.
+/// A picture on a wall, a shining one on half-transparent glass, and a metal with bumps.
+void addTextured(Scene& scene) {
+  Rng rng(6);
+  ImageRgba8 texels(8, 8);
+  for (auto& texel : texels) {
+    const auto byte = [&](std::uint32_t from) { return static_cast<std::uint8_t>(from + rng.below(256 - from)); };
+    texel = {byte(0), byte(0), byte(128), byte(0)};  // bumps point outwards
+  }
+  scene.texels.push_back(std::move(texels));
+  scene.textures.push_back({TexelsId{0}, Wrap::kRepeat, Wrap::kMirror});
+  const TextureSlot texture{TextureId{0}};
+  Material picture = lambertian(Vec3(0.9f));
+  picture.setSlot(TextureUse::kBaseColor, texture);
+  Material glass = emitter({3, 2, 1}, true);
+  for (const TextureUse use : {TextureUse::kEmission, TextureUse::kBaseColor}) glass.setSlot(use, texture);
+  glass.baseColor = {0.5f, 0.5f, 0.5f, 0.8f};
+  glass.alphaMode = AlphaMode::kBlend;
+  Material bumpy = metal({0.8f, 0.7f, 0.6f}, 0.4f);
+  bumpy.setSlot(TextureUse::kNormal, texture);
+  addQuad(scene, addMaterial(scene, picture), {-1.45f, -0.6f, 0.5f}, {0, 0, -0.9f}, {0, 0.8f, 0});
+  addQuad(scene, addMaterial(scene, glass), {-1.1f, 0.3f, -0.6f}, {0.9f, 0, 0}, {0, 0.5f, 0.2f}, 2, 2);
+  addQuad(scene, addMaterial(scene, bumpy), {0.3f, -0.5f, -1.4f}, {1, 0, 0}, {0, 0.9f, 0});
+  Mesh& wall = scene.meshes.back();
+  wall.normals.assign(wall.positions.size(), {0, 0, 1});
+  computeTangents(wall, texture);
+}
+
+/// Lights of all kinds, surfaces whose mirrored lights are asked for: metals and a dielectric of roughness 0.2 to 0.5; and
+/// textures.
 Scene glossyStage() {
   Scene scene = stage(LightMix::kAll, 120, 4);
+  addTextured(scene);
   Material lacquer;
   lacquer.baseColor = Vec4(0.1f, 0.3f, 0.2f, 1);
   lacquer.metallic = 0;

@@ -10,16 +10,17 @@ namespace {
 constexpr double kPiD = std::numbers::pi;
 constexpr float kAlbedo = 0.8f;
 
+/// A unit sphere in a square view that it just fills, seen along −z.
+Scene sphere(const Material& material) {
+  Scene scene;
+  // 512 sides: the polygon's area is short of the disk's by 3e-5.
+  addSphere(scene, addMaterial(scene, material), Vec3(0), 1, 512, 256);
+  scene.cameras.push_back(orthographic({0, 0, 5}, Vec3(0), 1));
+  return scene;
+}
+
 class AnalyticScene : public testing::TestWithParam<SamplerVariant> {
  protected:
-  /// A Lambertian unit sphere in a square view that it just fills, seen along −z.
-  static Scene sphere(const Material& material) {
-    Scene scene;
-    // 512 sides: the polygon's area is short of the disk's by 3e-5.
-    addSphere(scene, addMaterial(scene, material), Vec3(0), 1, 512, 256);
-    scene.cameras.push_back(orthographic({0, 0, 5}, Vec3(0), 1));
-    return scene;
-  }
   Estimate meanOf(Scene& scene, int maxDepth) const {
     finish(scene);
     RenderSettings settings;
@@ -130,13 +131,41 @@ TEST_P(AnalyticScene, SphereUnderLinearEnvironment) {
   expectMean(scene, overDisk([](double theta) { return kAlbedo * (1 + 2.0 / 3 * std::cos(theta)); }));
 }
 
-TEST_P(AnalyticScene, WhiteFurnaceIsWhite) {
-  Scene scene = sphere(lambertian(Vec3(1)));
-  addSphere(scene, addMaterial(scene, lambertian(Vec3(1))), {0.9f, 0.9f, 0.5f},
-            0.4f);  // light goes to and fro between the two
+/// A white sphere that fills the view, and another beside it: light goes to and fro between the two.
+Scene furnace(Scene scene) {
+  addSphere(scene, addMaterial(scene, lambertian(Vec3(1))), {0.9f, 0.9f, 0.5f}, 0.4f);
   scene.environment = environmentOf(16, 8, [](double) { return 1.0; });
+  return scene;
+}
+
+TEST_P(AnalyticScene, WhiteFurnaceIsWhite) {
+  Scene scene = furnace(sphere(lambertian(Vec3(1))));
   // 60 vertices: what is still under way has met a white surface 60 times in the open, less than 10⁻⁶.
   expectMean(scene, 1, 0.002, 60);
+}
+
+/// The choice of no light: every light is left to the paths that happen on it.
+class NoLight final : public LightSampler {
+ public:
+  std::optional<SampledLight> sample(const ShadingPoint&, double) const override { return std::nullopt; }
+  float pmf(const ShadingPoint&, LightId) const override { return 0; }
+  std::size_t bytes() const override { return 0; }
+};
+
+TEST(WhiteFurnace, IsWhiteByBsdfSamplingAlone) {
+  Scene scene = furnace(sphere(lambertian(Vec3(1))));
+  // Flat: towards the inside of a polygon that is shaded smoothly a path would end.
+  for (Mesh& mesh : scene.meshes) mesh.normals.clear();
+  finish(scene);
+  const Accel accel(scene);
+  const Lights lights(scene);
+  const NoLight none;
+  const PathContext context{scene, accel, lights, none, 1000, true};
+  PathCounts counts;
+  const Film film = renderPasses(context, {64, 64}, sampleShare(16), 9, counts);
+  EXPECT_GT(counts.bounceRays, 0u);
+  EXPECT_EQ(counts.shadowRays, 0u);
+  EXPECT_NEAR(tilesOf(estimatesOf(film), 1)[0].mean, 1, 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, AnalyticScene, testing::ValuesIn(kSamplerVariants), variantName);

@@ -29,6 +29,23 @@ Image<Estimate> renderEstimates(const Scene& scene, RenderSettings settings, std
   return estimatesOf(renderer.film());
 }
 
+Film renderPasses(const PathContext& context, glm::ivec2 size, std::size_t passes, std::uint64_t seed,
+                  PathCounts& counts) {
+  Film film(size.x, size.y, context.auxiliary);
+  for (std::size_t pass = 0; pass < passes; ++pass) {
+    for (int y = 0; y < size.y; ++y) {
+      for (int x = 0; x < size.x; ++x) {
+        PixelSampler random(PixelSampling::kIndependent, seed, x, y, pass);
+        const Sample4 position = random.next();
+        const Ray ray = cameraRay(context.scene.cameras[0], Vec2(x, y) + Vec2(position[0], position[1]), size);
+        film.record(x, y, tracePath(context, ray, random, counts));
+      }
+    }
+    film.commit();
+  }
+  return film;
+}
+
 Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes) {
   const Accel accel(scene);
   const ReferenceTracer tracer(scene, accel);
@@ -66,6 +83,7 @@ std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide) {
 std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons) {
   constexpr int kTiles = 8;
   std::ostringstream text;
+  int compared = 0;
   // A dark tile that lives of a few bright paths is no normal variable: mean and error go together, and |z| is too
   // large too often. 1,000 equally bright paths have this relative error; the picture as a whole has many more.
   const auto fewHits = [](const Estimate& e) { return e.mean * e.mean < 1000 * e.variance; };
@@ -73,6 +91,7 @@ std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::
     const double limit = criticalZ(as.size() * comparisons);
     for (std::size_t i = 0; i < as.size(); ++i) {
       if (as.size() > 1 && (fewHits(as[i]) || fewHits(bs[i]))) continue;
+      ++compared;
       const double z = zScore(as[i].mean, as[i].variance, bs[i].mean, bs[i].variance);
       if (std::abs(z) <= limit) continue;
       text << what << " " << i << ": " << as[i].mean << " against " << bs[i].mean << ", z = " << z << " beyond "
@@ -80,6 +99,7 @@ std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::
     }
   };
   compare(tilesOf(a, kTiles), tilesOf(b, kTiles), "tile");
+  if (4 * compared < kTiles * kTiles) text << "only " << compared << " tiles have enough paths to be compared\n";
   compare(tilesOf(a, 1), tilesOf(b, 1), "picture");
   return text.str();
 }

@@ -68,8 +68,9 @@ void expectSoundPmfs(const SamplerVariant& variant, const LightSampler& sampler,
   constexpr std::size_t kDraws = 1000, kComparisons = 10'000;
   const std::vector<double> pmf = allPmfs(sampler, lights, point);
   expectSumToOne(variant, sampler, point, pmf, kDraws, kComparisons);
+  const bool allReached = std::all_of(pmf.begin(), pmf.end(), [](double p) { return p > 0; });
   std::vector<double> contributions(pmf.size());
-  for (std::size_t i = 0; i < pmf.size(); ++i) {
+  for (std::size_t i = 0; !allReached && i < pmf.size(); ++i) {
     if (reach > 0 || !(pmf[i] > 0)) contributions[i] = contribution(lights, static_cast<LightId>(i), point);
   }
   const double reached = reach * std::accumulate(contributions.begin(), contributions.end(), 0.0);
