@@ -327,9 +327,9 @@ TEST_F(ViewerTest, RecentFilesOutliveTheWindow) {
 }
 
 TEST_F(ViewerTest, AReferenceIsMadeBesideThePicture) {
-  play("wait idle\nclick Reference\nset \"Reference spp\" 8\nclick \"Make reference\"\nwait idle\n");
+  play("wait idle\nclick Reference\nset \"Reference spp\" 16\nclick \"Make reference\"\nwait idle\n");
   ASSERT_TRUE(viewer_->reference().picture);
-  EXPECT_EQ(viewer_->reference().passes, 8u);
+  EXPECT_EQ(viewer_->reference().passes, 16u);
   play("set \"Stop at spp\" 4\nwait idle\n");
   const ConvergenceRun run = viewer_->convergence().run();
   ASSERT_GT(run.points.size(), 1u);
@@ -353,7 +353,7 @@ TEST_F(ViewerTest, AReferenceIsMadeBesideThePicture) {
 
 TEST_F(ViewerTest, ADuelEndsWhenItsTimeIsUpAndShowsTheRatio) {
   play(
-      "wait idle\nclick Reference\nset \"Reference spp\" 8\nkey J\nwait idle\nclick Duel\nset Opponent uniform\n"
+      "wait idle\nclick Reference\nset \"Reference spp\" 16\nkey J\nwait idle\nclick Duel\nset Opponent uniform\n"
       "set \"Stop at s\" 1\nset \"Duel in equal time\" on\nwait idle\n");
   const WidgetItem* ratio = viewer_->widgets().find("Ratio");
   ASSERT_NE(ratio, nullptr);

@@ -154,7 +154,6 @@ TEST_F(Session, AnEditRebuildsOnlyWhatItTouches) {
 
 TEST_F(Session, RandomEditsEndInTheRightPicture) {
   const std::array scenes{input.scene, stageWithTwoCameras(2), stageWithTwoCameras(3)};
-  std::mutex mutex;
   std::map<std::uint64_t, SessionInput> inputs;
   Rng rng(11);
   const auto pick = [&](int n) { return static_cast<int>(rng.uniform() * static_cast<float>(n)); };
