@@ -185,6 +185,16 @@ TEST_F(ViewerTest, ASliceShowsCellsInMidAir) {
   EXPECT_EQ(viewer_->overlay()->statistics.count, onSurfaces);
 }
 
+TEST_F(ViewerTest, IsNotAtRestBeforeItShowsTheLastPass) {
+  play("set Pause on\nset \"Stop at spp\" 5\nwait idle\n");
+  EXPECT_TRUE(viewer_->atRest());
+  viewer_->session().singleStep();
+  viewer_->session().waitIdle();
+  EXPECT_FALSE(viewer_->atRest());
+  play("wait idle\n");
+  EXPECT_TRUE(viewer_->atRest());
+}
+
 TEST_F(ViewerTest, PanelsAndSheetAreToggled) {
   play("expect Strategy cell-cut\nkey F2\n");
   EXPECT_THAT(refusalOf("expect Strategy cell-cut\n"), HasSubstr("nothing is labelled"));

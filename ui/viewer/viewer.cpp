@@ -93,6 +93,7 @@ bool Viewer::atRest() const {
   } else if (!session_.atRest()) {
     return false;
   }
+  if (session_.snapshot() != snapshot_) return false;  // it came after the last frame began
   // The last samples are measured too.
   const bool measured = !referenceFits() || snapshot_->preview || !snapshot_->error.empty() ||
                         convergence_.measured() >= snapshot_->passes;
