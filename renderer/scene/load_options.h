@@ -10,8 +10,10 @@ namespace cellcut {
 /// Beyond these a scene is refused before memory for it is asked for: a small file can ask for any amount by instances
 /// and by pictures that pack well.
 struct LoadLimits {
-  std::size_t maxTriangles = std::size_t{1} << 27;         ///< with instances written out; 8 GB with their attributes
-  std::uint64_t maxTextureBytes = std::uint64_t{1} << 33;  ///< of all pictures on surfaces together, and of the environment, decoded
+  /// With instances written out; 8 GB with their attributes.
+  std::size_t maxTriangles = std::size_t{1} << 27;
+  /// Of all pictures on surfaces together, and of the environment, decoded.
+  std::uint64_t maxTextureBytes = std::uint64_t{1} << 33;
 };
 
 struct LoadOptions {

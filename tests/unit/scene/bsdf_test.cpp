@@ -1,11 +1,14 @@
 #include "renderer/scene/bsdf.h"
 
 #include "renderer/base/rng.h"
+#include "renderer/base/srgb.h"
 #include "renderer/scene/material.h"
 #include "tests/support/depth.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -238,6 +241,37 @@ TEST(Bsdf, IsFiniteAtGrazingAngles) {
         }
       }
     }
+  }
+}
+
+TEST(BsdfAt, TexelsMultiplyTheFactorsOfTheirNames) {
+  const glm::vec<4, std::uint8_t> texel(200, 120, 90, 160);
+  const Vec4 linear = Vec4(texel) / 255.0f;
+  const Vec3 decoded(srgbToLinear(linear.x), srgbToLinear(linear.y), srgbToLinear(linear.z));
+  Material factors = dielectric(0.8f);
+  factors.baseColor = {0.9f, 0.8f, 0.7f, 1};
+  factors.metallic = 0.6f;
+  factors.specular = 0.9f;
+  factors.specularColor = {2, 4, 6};
+  const std::pair<TextureUse, std::function<void(Material&)>> uses[] = {
+      {TextureUse::kBaseColor, [&](Material& m) { m.baseColor *= Vec4(decoded, linear.w); }},
+      {TextureUse::kMetallicRoughness, [&](Material& m) { m.metallic *= linear.z, m.roughness *= linear.y; }},
+      {TextureUse::kSpecular, [&](Material& m) { m.specular *= linear.w; }},
+      {TextureUse::kSpecularColor, [&](Material& m) { m.specularColor *= decoded; }}};
+  const Vec3 wo = direction(0.6f), wi = direction(0.5f, 3);
+  const Vec3 without = bsdfOf(factors).eval(wo, wi).value;
+  for (const auto& [use, multiply] : uses) {
+    Scene scene;
+    scene.texels.emplace_back(1, 1, texel);
+    scene.textures.push_back({TexelsId{0}});
+    Material textured = factors, multiplied = factors;
+    textured.setSlot(use, {TextureId{0}});
+    multiply(multiplied);
+    addTriangle(scene, addMaterial(scene, textured), Vec3(0), {1, 0, 0}, {0, 1, 0});
+    const Vec3 value = bsdfAt(scene, {scene.meshes.data(), 0, Vec2(0.3f)}).eval(wo, wi).value;
+    const Vec3 expected = bsdfOf(multiplied).eval(wo, wi).value;
+    EXPECT_LT(glm::length(value - expected), 1e-5f * glm::length(expected)) << static_cast<int>(use);
+    EXPECT_GT(glm::length(value - without), 1e-3f * glm::length(without)) << static_cast<int>(use);
   }
 }
 
