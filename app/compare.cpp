@@ -14,7 +14,7 @@
 namespace cellcut {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCompareExamples =
     "Prints JSON: mse, relmse (per channel (A-B)^2 / (B^2 + epsilon), averaged over channels and pixels), epsilon\n"
     "(0.01 times the squared mean of B), smape (|A-B| / (|A| + |B| + 0.01 times the mean of B)), flip (HDR-FLIP), "
     "flip_ldr\n"
@@ -48,7 +48,7 @@ Verb addCompare(CLI::App& program) {
   const auto files = std::make_shared<Files>();
   verb->add_option("A", files->a, "Picture: .exr, .pfm or .hdr")->required()->type_name("");
   verb->add_option("B", files->b, "Reference of the same size")->required()->type_name("");
-  verb->footer(kExamples);
+  verb->footer(kCompareExamples);
   return {verb, [files](const Console& console) { return comparePictures(files->a, files->b, console); }};
 }
 

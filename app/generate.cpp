@@ -37,7 +37,7 @@ std::filesystem::path parseOutput(const std::filesystem::path& file) {
   return file;
 }
 
-std::string helpText() {
+std::string generateHelp() {
   std::string text = "Recipes:\n";
   for (const RecipeName& recipe : kRecipes) {
     text += "  " + std::string(recipe.name) + ": " + std::string(recipe.description) + "\n";
@@ -74,7 +74,7 @@ Verb addGenerate(CLI::App& program) {
   add(
       "-o,--output", "FILE", [&o](const std::string& t) { o.output = parseOutput(t); }, "Scene file, .glb")
       ->required();
-  verb->footer(helpText());
+  verb->footer(generateHelp());
   return {verb, [options](const Console& console) { return generateScene(*options, console); }};
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kExamples =
+constexpr const char* kInfoExamples =
     "Prints JSON: meshes, triangles, materials, textures, cameras, lights by kind, bounds, memory, warnings.\n"
     "\n"
     "Example:\n"
@@ -113,7 +113,7 @@ Verb addInfo(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
   verb->add_option("SCENE", options->scene, "Scene: .gltf, .glb or .obj")->required()->type_name("");
   addLoadLimits(*verb, options->load.limits);
-  verb->footer(kExamples);
+  verb->footer(kInfoExamples);
   return {verb, [options](const Console& console) { return showInfo(*options, console); }};
 }
 

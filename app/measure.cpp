@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string helpText() {
+std::string measureHelp() {
   std::string text = "Strategies:\n";
   for (const StrategyName& s : kStrategies)
     text += "  " + std::string(s.name) + ": " + std::string(s.description) + "\n";
@@ -346,7 +346,7 @@ Verb addMeasure(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("measure", "Compare strategies and settings: error against time");
   const auto options = std::make_shared<MeasureOptions>();
   addMeasureOptions(*verb, *options);
-  verb->footer(helpText());
+  verb->footer(measureHelp());
   return {verb, [options](const Console& console) { return measure(*options, console); }};
 }
 

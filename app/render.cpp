@@ -22,7 +22,7 @@
 namespace cellcut {
 namespace {
 
-constexpr const char* kExplanations = R"(
+constexpr const char* kRenderExplanations = R"(
 Noise: rendering stops when the root of relMSE (see compare) against the unknown truth is below REL with 97 %, as far
 as the samples tell. It is looked at after 16, 20, 25, 32, 40, 50, 64, ... passes.
 
@@ -45,7 +45,7 @@ Examples:
   cellcut render lamp.obj -o lamp.exr --environment sky.hdr --environment-rotation 90
   cellcut render blender.glb -o direct.png --max-depth 1 --punctual-scale blender)";
 
-std::string helpText() {
+std::string renderHelp() {
   std::string text = "Strategies:\n";
   for (const StrategyName& strategy : kStrategies) {
     text += "  " + std::string(strategy.name) + ": " + std::string(strategy.description) + "\n";
@@ -55,7 +55,7 @@ std::string helpText() {
     text += "  " + std::string(quality.name) + ": " + std::string(quality.description) + "\n";
   }
   text += "  auto: the best of some settings that are tried on the scene\n";
-  return text + kExplanations;
+  return text + kRenderExplanations;
 }
 
 void showWarnings(const Scene& scene, std::ostream& err) {
@@ -165,7 +165,7 @@ Verb addRender(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("render", "Render a scene to a picture");
   const auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*verb, *options);
-  verb->footer(helpText());
+  verb->footer(renderHelp());
   return {verb, [options](const Console& console) { return renderPicture(*options, console); }};
 }
 

@@ -15,7 +15,7 @@
 namespace cellcut {
 namespace {
 
-constexpr const char* kExplanations = R"(
+constexpr const char* kScreenshotExplanations = R"(
 Beside OUT.png an OUT.json says what the overlay shows: minimum, maximum, mean, the share of cells touched, and with
 --pick the inspector's table. --size is that of the PNG; with panels the rendering is what is left of it.
 
@@ -207,7 +207,7 @@ Verb addScreenshot(CLI::App& program) {
     o.split = std::pair(strategyNamed("--split", a), strategyNamed("--split", b));
   };
   add("--split", "STRATEGY:STRATEGY", split, "Two strategies side by side in one picture");
-  verb->footer(kExplanations);
+  verb->footer(kScreenshotExplanations);
   return {verb, [options](const Console& console) { return takeScreenshot(*options, console); }};
 }
 

@@ -13,7 +13,7 @@
 namespace cellcut {
 namespace {
 
-constexpr const char* kExplanations = R"(
+constexpr const char* kViewExplanations = R"(
 F1 shows the keys. --size is the window's. Without --spp, --time and --noise rendering goes on until the window closes.
 
 --headless needs no display; with --script it replays input, one action a line, and stops at its end:
@@ -87,7 +87,7 @@ Verb addView(CLI::App& program) {
   verb->add_option_function<std::string>(
           "--record", [&o](const std::string& text) { o.record = text; }, "Write down what is done as such a script")
       ->type_name("FILE");
-  verb->footer(kExplanations);
+  verb->footer(kViewExplanations);
   return {verb, [options](const Console& console) { return showViewer(*options, console); }};
 }
 

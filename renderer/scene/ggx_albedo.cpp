@@ -7,10 +7,10 @@
 namespace cellcut {
 namespace {
 
-constexpr int kRows = 32;        ///< steps in roughness
-constexpr int kColumns = 32;     ///< steps in √μ, which are finer at grazing, where Fresnel's reflectance is steep
-constexpr int kNormals = 610;    ///< microfacets per entry: a Fibonacci number,
-constexpr int kGenerator = 377;  ///< and the one before it, which makes a lattice of the unit square
+constexpr int kRows = 32;          ///< steps in roughness
+constexpr int kColumns = 32;       ///< steps in √μ, which are finer at grazing, where Fresnel's reflectance is steep
+constexpr int kMicrofacets = 610;  ///< microfacets per entry: a Fibonacci number,
+constexpr int kGenerator = 377;    ///< and the one before it, which makes a lattice of the unit square
 
 struct Table {
   std::array<std::array<Vec2, kColumns + 1>, kRows + 1> albedo;
@@ -21,9 +21,9 @@ struct Table {
 Vec2 integrate(float alpha, const Vec3& wo) {
   Vec2 sum(0);
   const float lambdaOut = ggxLambda(alpha, wo);
-  for (int i = 0; i < kNormals; ++i) {
-    const Vec2 u((static_cast<float>(i) + 0.5f) / kNormals,
-                 (static_cast<float>(i * kGenerator % kNormals) + 0.5f) / kNormals);
+  for (int i = 0; i < kMicrofacets; ++i) {
+    const Vec2 u((static_cast<float>(i) + 0.5f) / kMicrofacets,
+                 (static_cast<float>(i * kGenerator % kMicrofacets) + 0.5f) / kMicrofacets);
     const Vec3 h = sampleVisibleNormal(alpha, wo, u);
     const float cosine = glm::dot(wo, h);
     const Vec3 wi = 2 * cosine * h - wo;
@@ -32,7 +32,7 @@ Vec2 integrate(float alpha, const Vec3& wo) {
     const float weight = schlickWeight(cosine);
     sum += unshadowed * Vec2(1 - weight, weight);
   }
-  return sum / static_cast<float>(kNormals);
+  return sum / static_cast<float>(kMicrofacets);
 }
 
 /// 2 ∫ E(μ) μ dμ over one step of t = √μ, in which E is linear in t.

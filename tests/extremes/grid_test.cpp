@@ -8,9 +8,6 @@
 namespace cellcut::test {
 namespace {
 
-/// Of what all lights contribute: local lights seen from 10¹⁸ m are 10⁻³⁶ of a sky, less than a float's probability.
-constexpr double kReach = 1e-12;
-
 Vec3 inUnitBox(Rng& rng) {
   return {rng.uniform(), rng.uniform(), rng.uniform()};
 }

@@ -37,9 +37,6 @@ void scaleInTurn(Scene& scene, float even, float odd) {
   for (std::size_t i = 0; i < sky.size(); ++i) sky[i] *= factor(i);
 }
 
-/// A light that adds less than this share of all may have no probability at all.
-constexpr double kReach = 1e-12;
-
 Scene lightsAt(LightMix kind, const std::vector<Vec3>& positions) {
   Scene scene;
   addLightsAt(scene, kind, positions, 1);
@@ -207,7 +204,7 @@ TEST_P(ExtremeLights, ThatTheShadingPointIsPartOfAddTheirOwnRadianceAndNoMore) {
     settings.sampling = PixelSampling::kIndependent;
     Renderer renderer(scene, settings);
     finitePicture(renderer);
-    const Estimate mean = tilesOf(estimatesOf(renderer.film()), 1)[0];
+    const LuminanceEstimate mean = tilesOf(estimatesOf(renderer.film()), 1)[0];
     const glm::dvec3 d = glm::dvec3(lamp) - glm::dvec3(point.p);
     const double expected =
         2 + 0.5 / std::numbers::pi * 3 * glm::dot(d, glm::dvec3(point.n)) / std::pow(glm::length(d), 3);
@@ -329,11 +326,6 @@ TEST(LightTreeOfExtremes, IsNoDeeperThanItsStackWhateverTheArrangement) {
     }
   }
 }
-
-/// Those whose probabilities of a million lights take seconds at a point and not minutes (point-cut) or days (proportional).
-constexpr std::array kFastVariants{
-    SamplerVariant{"uniform", Strategy::kUniform}, SamplerVariant{"power", Strategy::kPower},
-    SamplerVariant{"cell_cut", Strategy::kCellCut}, SamplerVariant{"light_tree", Strategy::kLightTree}};
 
 /// Of all kinds.
 Scene aMillionLights(float even, float odd) {

@@ -49,8 +49,6 @@ class FarScenes {
 };
 
 constexpr std::array kRadii{1e-6, 1e6};
-/// A light that adds less than this share of all may have no probability at all.
-constexpr double kReach = 1e-12;
 
 bool looksAtPlaces(const SamplerVariant& variant) {
   return variant.strategy != Strategy::kUniform && variant.strategy != Strategy::kPower;
@@ -76,16 +74,11 @@ TEST(PlacementOfAScene, KeepsItsTrianglesLightsAndSize) {
   }
 }
 
-/// Those whose probabilities of a million lights take no more than seconds at a point.
-constexpr std::array kFastVariants{
-    SamplerVariant{"uniform", Strategy::kUniform}, SamplerVariant{"power", Strategy::kPower},
-    SamplerVariant{"cell_cut", Strategy::kCellCut}, SamplerVariant{"light_tree", Strategy::kLightTree}};
-
 /// Sound probabilities at a vertex of a path, and a finite picture, of each of them.
-std::vector<Image<Estimate>> expectSound(const Scene& scene, std::uint64_t seed) {
+std::vector<Image<LuminanceEstimate>> expectSound(const Scene& scene, std::uint64_t seed) {
   const PreparedScene prepared(scene);
   const ShadingPoint point = pathVertices(scene, 1, 7)[0];
-  std::vector<Image<Estimate>> pictures;
+  std::vector<Image<LuminanceEstimate>> pictures;
   for (const SamplerVariant& variant : kFastVariants) {
     SCOPED_TRACE(variant.name);
     const RenderSettings settings = settingsOf(variant);

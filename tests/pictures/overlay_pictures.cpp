@@ -20,7 +20,6 @@ namespace cellcut::test {
 namespace {
 
 constexpr glm::ivec2 kSize(480, 270);
-const std::atomic<bool> kNever{false};
 
 /// The picture as the viewer shows it.
 ImageRgba8 shown(const ImageRgb& radiance) {

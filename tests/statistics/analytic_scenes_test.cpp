@@ -21,7 +21,7 @@ Scene sphere(const Material& material) {
 
 class AnalyticScene : public testing::TestWithParam<SamplerVariant> {
  protected:
-  Estimate meanOf(Scene& scene, int maxDepth) const {
+  LuminanceEstimate meanOf(Scene& scene, int maxDepth) const {
     finish(scene);
     RenderSettings settings;
     settings.width = settings.height = 64;
@@ -33,7 +33,7 @@ class AnalyticScene : public testing::TestWithParam<SamplerVariant> {
   }
   /// \param expected  luminance, mean over the square
   void expectMean(Scene& scene, double expected, double tolerance = 0.005, int maxDepth = 1) const {
-    const Estimate mean = meanOf(scene, maxDepth);
+    const LuminanceEstimate mean = meanOf(scene, maxDepth);
     // A sixteenth of the paths errs by four times as much.
     EXPECT_NEAR(mean.mean / expected, 1, isSixteenth() ? 4 * tolerance : tolerance);
     // Tessellation and quadrature: 10⁻⁴.

@@ -35,7 +35,7 @@ class Pictures : public testing::TestWithParam<std::tuple<LightMix, int>> {
 };
 
 void expectAllAgree(const Scene& scene, RenderSettings settings) {
-  std::vector<std::pair<std::string, Image<Estimate>>> pictures;
+  std::vector<std::pair<std::string, Image<LuminanceEstimate>>> pictures;
   pictures.emplace_back("reference", referenceEstimates(scene, settings, referencePasses()));
   for (const SamplerVariant& variant : kSamplerVariants) {
     settings.strategy = variant.strategy;

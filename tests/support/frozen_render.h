@@ -4,9 +4,13 @@
 
 #include "renderer/trace/integrator.h"
 
+#include <atomic>
 #include <vector>
 
 namespace cellcut::test {
+
+/// Of what can be cancelled and is not.
+inline const std::atomic<bool> kNever{false};
 
 struct FrozenSettings {
   glm::ivec2 size{32, 24};

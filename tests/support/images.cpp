@@ -8,9 +8,9 @@
 
 namespace cellcut::test {
 
-Image<Estimate> estimatesOf(const Film& film) {
+Image<LuminanceEstimate> estimatesOf(const Film& film) {
   const ImageRgb mean = film.mean(), error = film.standardError();
-  Image<Estimate> result(film.width(), film.height());
+  Image<LuminanceEstimate> result(film.width(), film.height());
   for (std::size_t i = 0; i < result.size(); ++i) {
     // The lights of the tests colour all channels by nearly one pattern, so the channels' errors add up and not their
     // squares: the bound that holds for any correlation.
@@ -20,7 +20,7 @@ Image<Estimate> estimatesOf(const Film& film) {
   return result;
 }
 
-Image<Estimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes) {
+Image<LuminanceEstimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes) {
   settings.sampling = PixelSampling::kIndependent;
   settings.auxiliary = false;
   Renderer renderer(scene, settings);
@@ -46,10 +46,10 @@ Film renderPasses(const PathContext& context, glm::ivec2 size, std::size_t passe
   return film;
 }
 
-Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes) {
+Image<LuminanceEstimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes) {
   const Accel accel(scene);
   const ReferenceTracer tracer(scene, accel);
-  Image<Estimate> result(settings.width, settings.height);
+  Image<LuminanceEstimate> result(settings.width, settings.height);
   for (int y = 0; y < settings.height; ++y) {
     for (int x = 0; x < settings.width; ++x) {
       Rng random(hashOf(settings.seed, x, y, 77));
@@ -65,14 +65,14 @@ Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& set
   return result;
 }
 
-std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide) {
+std::vector<LuminanceEstimate> tilesOf(const Image<LuminanceEstimate>& image, int tilesPerSide) {
   const int width = image.width() / tilesPerSide, height = image.height() / tilesPerSide;
   const double pixels = static_cast<double>(width) * height;
-  std::vector<Estimate> tiles(static_cast<std::size_t>(tilesPerSide) * static_cast<std::size_t>(tilesPerSide));
+  std::vector<LuminanceEstimate> tiles(static_cast<std::size_t>(tilesPerSide) * static_cast<std::size_t>(tilesPerSide));
   for (int y = 0; y < height * tilesPerSide; ++y) {
     for (int x = 0; x < width * tilesPerSide; ++x) {
       const auto row = static_cast<std::size_t>(y / height), column = static_cast<std::size_t>(x / width);
-      Estimate& tile = tiles[row * static_cast<std::size_t>(tilesPerSide) + column];
+      LuminanceEstimate& tile = tiles[row * static_cast<std::size_t>(tilesPerSide) + column];
       tile.mean += image.at(x, y).mean / pixels;
       tile.variance += image.at(x, y).variance / (pixels * pixels);
     }
@@ -80,14 +80,15 @@ std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide) {
   return tiles;
 }
 
-std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons) {
+std::string difference(const Image<LuminanceEstimate>& a, const Image<LuminanceEstimate>& b, std::size_t comparisons) {
   constexpr int kTiles = 8;
   std::ostringstream text;
   int compared = 0;
   // A dark tile that lives of a few bright paths is no normal variable: mean and error go together, and |z| is too
   // large too often. 1,000 equally bright paths have this relative error; the picture as a whole has many more.
-  const auto fewHits = [](const Estimate& e) { return e.mean * e.mean < 1000 * e.variance; };
-  const auto compare = [&](const std::vector<Estimate>& as, const std::vector<Estimate>& bs, const char* what) {
+  const auto fewHits = [](const LuminanceEstimate& e) { return e.mean * e.mean < 1000 * e.variance; };
+  const auto compare = [&](const std::vector<LuminanceEstimate>& as, const std::vector<LuminanceEstimate>& bs,
+                           const char* what) {
     const double limit = criticalZ(as.size() * comparisons);
     for (std::size_t i = 0; i < as.size(); ++i) {
       if (as.size() > 1 && (fewHits(as[i]) || fewHits(bs[i]))) continue;

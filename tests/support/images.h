@@ -11,28 +11,28 @@
 namespace cellcut::test {
 
 /// Luminance of a part of a picture, with the variance of that number.
-struct Estimate {
+struct LuminanceEstimate {
   double mean = 0;
   double variance = 0;
 };
 
 /// Luminance per pixel and the variance of each pixel's mean.
-Image<Estimate> estimatesOf(const Film& film);
+Image<LuminanceEstimate> estimatesOf(const Film& film);
 
 /// `passes` passes of a scene with independent random numbers.
-Image<Estimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes);
+Image<LuminanceEstimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes);
 /// The same of a context of the test's own, on the calling thread, through the scene's first camera.
 Film renderPasses(const PathContext& context, glm::ivec2 size, std::size_t passes, std::uint64_t seed,
                   PathCounts& counts);
 /// The same picture by ReferenceTracer.
-Image<Estimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes);
+Image<LuminanceEstimate> referenceEstimates(const Scene& scene, const RenderSettings& settings, std::size_t passes);
 
 /// Means over a grid of tiles.
-std::vector<Estimate> tilesOf(const Image<Estimate>& image, int tilesPerSide);
+std::vector<LuminanceEstimate> tilesOf(const Image<LuminanceEstimate>& image, int tilesPerSide);
 
 /// Compares pictures by tiles, as far as these are made of enough paths, and as a whole. A quarter of the tiles must be.
 /// \param comparisons  how many pairs are compared in the test, this one included
 /// \return "" if no tile of the 8 by 8 and not the mean differs by more than chance, else what differs and by how much
-std::string difference(const Image<Estimate>& a, const Image<Estimate>& b, std::size_t comparisons);
+std::string difference(const Image<LuminanceEstimate>& a, const Image<LuminanceEstimate>& b, std::size_t comparisons);
 
 }  // namespace cellcut::test

@@ -20,7 +20,7 @@ std::vector<double> allPmfs(const LightSampler& sampler, const Lights& lights, c
 namespace {
 
 /// Of probabilities that are rounded to floats, each by 6e-8 of itself; and of sums of some thousand floats.
-constexpr double kRounding = 1e-5;
+constexpr double kSumRounding = 1e-5;
 
 /// Whether a point is a corner of a triangle light. It lies in its plane and gets nothing, but for a quadrature's rounding.
 bool isCornerOf(const Lights& lights, LightId light, const Vec3& p) {
@@ -43,10 +43,10 @@ void expectSumToOne(const SamplerVariant& variant, const LightSampler& sampler, 
                     std::span<const double> pmf, std::size_t draws, std::size_t comparisons) {
   const double sum = std::accumulate(pmf.begin(), pmf.end(), 0.0);
   if (!variant.canEndInNothing(point)) {
-    EXPECT_NEAR(sum, sampler.sample(point, 0.5) ? 1 : 0, kRounding);
+    EXPECT_NEAR(sum, sampler.sample(point, 0.5) ? 1 : 0, kSumRounding);
     return;
   }
-  EXPECT_LE(sum, 1 + kRounding);
+  EXPECT_LE(sum, 1 + kSumRounding);
   const std::size_t n = variant.affordable(sampleShare(draws));
   const auto samples = static_cast<double>(n);
   // One number from each n-th of the unit interval: varies less than the binomial that is allowed for.
@@ -59,7 +59,7 @@ void expectSumToOne(const SamplerVariant& variant, const LightSampler& sampler, 
   // Of few that are expected the tails are longer than a normal variable's: Bernstein's inequality.
   EXPECT_NEAR(static_cast<double>(none), missing * samples,
               limit * std::sqrt(samples * missing * (1 - std::min(1.0, missing))) +
-                  (missing > 0 ? limit * limit / 3 : 0) + kRounding * samples);
+                  (missing > 0 ? limit * limit / 3 : 0) + kSumRounding * samples);
 }
 
 void expectSoundPmfs(const SamplerVariant& variant, const LightSampler& sampler, const Lights& lights,
@@ -84,7 +84,7 @@ void expectSoundPmfs(const SamplerVariant& variant, const LightSampler& sampler,
     if (!sample) continue;
     ASSERT_LT(static_cast<std::size_t>(sample->light), lights.size());
     ASSERT_GT(sample->pmf, 0) << "u = " << u;
-    ASSERT_NEAR(pmf[static_cast<std::size_t>(sample->light)] / static_cast<double>(sample->pmf), 1, kRounding);
+    ASSERT_NEAR(pmf[static_cast<std::size_t>(sample->light)] / static_cast<double>(sample->pmf), 1, kSumRounding);
   }
 }
 

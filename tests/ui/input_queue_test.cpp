@@ -22,17 +22,17 @@ TextInput text(char32_t character) {
   return {character};
 }
 
-using Frame = std::vector<InputEvent>;
+using FrameEvents = std::vector<InputEvent>;
 
 /// The frames that a burst of input is dealt out to.
-std::vector<Frame> dealt(const Frame& events) {
+std::vector<FrameEvents> dealt(const FrameEvents& events) {
   InputQueue queue;
   queue.push(events);
-  std::vector<Frame> frames;
+  std::vector<FrameEvents> frames;
   while (!queue.empty()) frames.push_back(queue.takeFrame());
   return frames;
 }
-using Frames = std::vector<Frame>;
+using Frames = std::vector<FrameEvents>;
 
 TEST(InputQueue, NothingGivesNoFrame) {
   InputQueue queue;
@@ -91,11 +91,11 @@ TEST(InputQueue, LosingTheFocusEndsAFrame) {
 
 TEST(InputQueue, LaterEventsWaitBehindEarlierOnes) {
   InputQueue queue;
-  queue.push(Frame{kPress, kRelease});
-  EXPECT_EQ(queue.takeFrame(), Frame{kPress});
-  queue.push(Frame{kHere});
-  EXPECT_EQ(queue.takeFrame(), Frame{kRelease});
-  EXPECT_EQ(queue.takeFrame(), Frame{kHere});
+  queue.push(FrameEvents{kPress, kRelease});
+  EXPECT_EQ(queue.takeFrame(), FrameEvents{kPress});
+  queue.push(FrameEvents{kHere});
+  EXPECT_EQ(queue.takeFrame(), FrameEvents{kRelease});
+  EXPECT_EQ(queue.takeFrame(), FrameEvents{kHere});
   EXPECT_TRUE(queue.empty());
 }
 

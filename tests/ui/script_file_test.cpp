@@ -2,6 +2,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 #include "tests/support/hostile_budget.h"
+#include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 #include "tests/support/temporary_directory.h"
 #include "ui/viewer/script.h"
@@ -19,29 +20,24 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string refusalOf(const fs::path& file) {
+std::string scriptRefusal(const fs::path& file) {
   const test::HostileBudget budget(file.filename());
-  try {
-    readScript(file);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "was not refused";
+  return test::refusalOf([&] { readScript(file); });
 }
 
 TEST(ScriptFile, AFifoIsRefused) {
   const test::TemporaryDirectory folder;
   ASSERT_EQ(mkfifo((folder / "script.txt").c_str(), 0600), 0);
-  EXPECT_THAT(refusalOf(folder / "script.txt"), HasSubstr("script.txt: is no regular file but a pipe"));
+  EXPECT_THAT(scriptRefusal(folder / "script.txt"), HasSubstr("script.txt: is no regular file but a pipe"));
 }
 
 TEST(ScriptFile, ADeviceWithoutEndIsRefused) {
-  EXPECT_THAT(refusalOf("/dev/zero"), HasSubstr("/dev/zero: is no regular file but a pipe or a device"));
+  EXPECT_THAT(scriptRefusal("/dev/zero"), HasSubstr("/dev/zero: is no regular file but a pipe or a device"));
 }
 
 TEST(ScriptFile, AFolderIsRefused) {
   const test::TemporaryDirectory folder;
-  EXPECT_THAT(refusalOf(folder.path()), HasSubstr("is a folder; name"));
+  EXPECT_THAT(scriptRefusal(folder.path()), HasSubstr("is a folder; name"));
 }
 
 TEST(ScriptFile, MoreThanAMegabyteIsRefused) {
@@ -50,13 +46,13 @@ TEST(ScriptFile, MoreThanAMegabyteIsRefused) {
   std::ofstream(folder / "script.txt") << comment;
   EXPECT_TRUE(readScript(folder / "script.txt").empty());
   fs::resize_file(folder / "script.txt", (std::uintmax_t{1} << 20) + 1);
-  EXPECT_THAT(refusalOf(folder / "script.txt"), HasSubstr("script.txt: has 1048577 bytes, more than the limit"));
+  EXPECT_THAT(scriptRefusal(folder / "script.txt"), HasSubstr("script.txt: has 1048577 bytes, more than the limit"));
 }
 
 TEST(ScriptFile, WhatIsNoScriptIsRefusedInOneLineOfText) {
   const test::TemporaryDirectory folder;
   std::ofstream(folder / "script.txt") << std::string(3, '\0') + "\x1b[2J" + std::string(1000, 'x');
-  EXPECT_THAT(refusalOf(folder / "script.txt"),
+  EXPECT_THAT(scriptRefusal(folder / "script.txt"),
               testing::EndsWith("script.txt:1: no action '????[2J" + std::string(73, 'x') +
                                 "'; cellcut view --help lists them"));
 }

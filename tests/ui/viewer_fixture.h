@@ -5,6 +5,7 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/own_threads.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_directory.h"
 #include "ui/viewer/script.h"
@@ -46,12 +47,7 @@ class ViewerTest : public testing::Test {
     ScriptPlayer(file, readScript(file), folder_.path()).play(*viewer_, *window_);
   }
   std::string refusalOf(const std::string& text) {
-    try {
-      play(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusalOf([&] { play(text); });
   }
 
   OnlyOwnThreads onlyOwnThreads_;

@@ -14,7 +14,7 @@ constexpr float kHalfRoad = 4.0f;
 constexpr float kHalfStreet = 7.0f;  ///< between the houses
 constexpr float kKerb = 0.14f;
 constexpr float kShopStorey = 4.0f;
-constexpr float kStorey = 3.2f;
+constexpr float kUpperStorey = 3.2f;
 constexpr float kGap = 0.25f;        ///< between houses: their walls must not coincide
 constexpr float kBehindCamera = 14;  ///< the street goes on there, so that it is lit from both sides
 
@@ -25,7 +25,7 @@ struct House {
   int storeys;  ///< above the shop
   int columns;  ///< of windows
   Paint wall;
-  float height() const { return kShopStorey + kStorey * static_cast<float>(storeys); }
+  float height() const { return kShopStorey + kUpperStorey * static_cast<float>(storeys); }
   std::size_t windows() const { return static_cast<std::size_t>(storeys) * static_cast<std::size_t>(columns); }
   float distance() const { return std::abs(front.origin.z); }
 };
@@ -117,7 +117,7 @@ void Street::addHouse(const House& house) {
   addBox(palette_.flat(house.wall), house.front, {0, 0, -11}, {w, h, 0}, kBottom);
   Surface& trim = palette_.flat(house.wall == Paint::kSandstone ? Paint::kPlaster : Paint::kSandstone);
   for (int s = 0; s <= house.storeys; ++s) {
-    const float y = kShopStorey + kStorey * static_cast<float>(s);
+    const float y = kShopStorey + kUpperStorey * static_cast<float>(s);
     const bool cornice = s == house.storeys;
     const float depth = cornice ? 0.5f : 0.2f;
     addBox(trim, house.front, {cornice ? -0.05f : 0, y - 0.16f, 0}, {cornice ? w + 0.05f : w, y + 0.1f, depth},
@@ -158,8 +158,8 @@ void Street::addWindows(const House& house, std::size_t lights) {
   const Vec2 size(step - 0.9f, 1.75f);
   for (const std::size_t w : order) {
     const auto column = static_cast<int>(w) % house.columns, storey = static_cast<int>(w) / house.columns;
-    const Pose cell = house.front.at(
-        {step * (static_cast<float>(column) + 0.5f), kShopStorey + kStorey * static_cast<float>(storey) + 0.85f, 0});
+    const Pose cell = house.front.at({step * (static_cast<float>(column) + 0.5f),
+                                      kShopStorey + kUpperStorey * static_cast<float>(storey) + 0.85f, 0});
     addBox(palette_.flat(Paint::kPlaster), cell, {-size.x / 2 - 0.1f, -0.1f, 0}, {size.x / 2 + 0.1f, 0, 0.16f}, kBack);
     if (lights == 0) {
       addPane(palette_.flat(Paint::kDarkGlass), cell, {-size.x / 2, 0}, {size.x / 2, size.y}, 2);

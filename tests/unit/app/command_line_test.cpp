@@ -4,6 +4,7 @@
 #include "renderer/sampling/sampler_settings.h"
 #include "renderer/sampling/strategy.h"
 #include "renderer/scene/recipes/recipe.h"
+#include "tests/support/command_run.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_directory.h"
 
@@ -18,31 +19,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-struct Outcome {
-  int code;
-  std::string out;
-  std::string err;
-};
-
-Outcome run(const std::vector<std::string>& arguments, std::ostream* err = nullptr, bool terminal = false) {
-  std::vector<const char*> args{"cellcut"};
-  for (const std::string& argument : arguments) args.push_back(argument.c_str());
-  std::ostringstream out;
-  std::ostringstream ownErr;
-  const int code = runCommandLine(args, out, err != nullptr ? *err : ownErr, terminal);
-  return {code, out.str(), ownErr.str()};
-}
-
 /// Bad input as a script sees it: 2, nothing on the standard output, one line that says why.
 void expectRefused(const std::vector<std::string>& arguments, const std::string& reason) {
-  const Outcome outcome = run(arguments);
+  const Outcome outcome = runCommand(arguments);
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.out, IsEmpty());
   EXPECT_THAT(outcome.err, HasSubstr(reason));
@@ -60,7 +46,7 @@ std::vector<std::string> allVerbs() {
 
 #ifndef CELLCUT_UI  // else it opens the viewer
 TEST(CommandLine, WithoutVerbShowsHelpAndIsBadUsage) {
-  const Outcome outcome = run({});
+  const Outcome outcome = runCommand({});
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.out, IsEmpty());
   for (const char* verb : {"render", "measure", "compare", "generate", "info"})
@@ -70,7 +56,7 @@ TEST(CommandLine, WithoutVerbShowsHelpAndIsBadUsage) {
 
 TEST(CommandLine, HelpOfEveryVerbHasAnExample) {
   for (const std::string& verb : allVerbs()) {
-    const Outcome outcome = run({verb, "--help"});
+    const Outcome outcome = runCommand({verb, "--help"});
     EXPECT_EQ(outcome.code, kDone);
     EXPECT_THAT(outcome.out, HasSubstr("\n  cellcut " + verb + " "));
     EXPECT_THAT(outcome.err, IsEmpty());
@@ -79,7 +65,7 @@ TEST(CommandLine, HelpOfEveryVerbHasAnExample) {
 
 TEST(CommandLine, HelpFitsTheWidthOfATerminal) {
   for (const std::string& verb : allVerbs()) {
-    std::istringstream help(run({verb, "--help"}).out);
+    std::istringstream help(runCommand({verb, "--help"}).out);
     for (std::string line; std::getline(help, line);) {
       EXPECT_LE(line.size(), 120u) << line;  // the column limit of our sources
     }
@@ -87,7 +73,7 @@ TEST(CommandLine, HelpFitsTheWidthOfATerminal) {
 }
 
 TEST(CommandLine, VersionIsPrinted) {
-  const Outcome outcome = run({"--version"});
+  const Outcome outcome = runCommand({"--version"});
   EXPECT_EQ(outcome.code, kDone);
   EXPECT_THAT(outcome.out, testing::StartsWith("cellcut "));
 }
@@ -123,7 +109,7 @@ TEST(CommandLine, CompareReportsTheDifference) {
   const test::TemporaryDirectory folder;
   writePfm(folder / "a.pfm", ImageRgb(8, 8, Vec3(3)));
   writePfm(folder / "b.pfm", ImageRgb(8, 8, Vec3(2)));
-  const Outcome outcome = run({"compare", (folder / "a.pfm").string(), (folder / "b.pfm").string()});
+  const Outcome outcome = runCommand({"compare", (folder / "a.pfm").string(), (folder / "b.pfm").string()});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   // The same sums as in the definition, on numbers that a double holds: only the order of a few operations may differ.
@@ -147,7 +133,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string& verb : allVerbs()) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render measure compare generate info"));
-    std::istringstream help(run({verb, "--help"}).out);
+    std::istringstream help(runCommand({verb, "--help"}).out);
     for (std::string word; help >> word;) {
       const std::size_t dashes = word.find("--");
       if (dashes == std::string::npos) continue;
@@ -162,7 +148,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
 class VerbsOnAScene : public testing::Test {
  protected:
   void SetUp() override {
-    const Outcome outcome = run({"generate", "kinds", "--lights", "8", "--seed", "3", "-o", path("kinds.glb")});
+    const Outcome outcome = runCommand({"generate", "kinds", "--lights", "8", "--seed", "3", "-o", path("kinds.glb")});
     ASSERT_EQ(outcome.code, kDone) << outcome.err;
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -171,7 +157,7 @@ class VerbsOnAScene : public testing::Test {
                  bool terminal = false) {
     std::vector<std::string> args{"render", path("kinds.glb"), "-o", path(picture), "--size", "32x18"};
     args.insert(args.end(), more.begin(), more.end());
-    return run(args, err, terminal);
+    return runCommand(args, err, terminal);
   }
   nlohmann::json report() const {
     std::ifstream file(path("report.json"));
@@ -185,7 +171,7 @@ class VerbsOnAScene : public testing::Test {
 };
 
 TEST_F(VerbsOnAScene, InfoCountsWhatTheRecipeWasAskedFor) {
-  const Outcome outcome = run({"info", path("kinds.glb")});
+  const Outcome outcome = runCommand({"info", path("kinds.glb")});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   const auto& lights = json.at("lights");
@@ -210,7 +196,7 @@ TEST(CommandLine, InfoWarnsOfLightsThatAreMoreThanTwelveDecadesApart) {
     }
     const std::string path = (folder / "two.glb").string();
     file.writeGlb(path);
-    const Outcome outcome = run({"info", path});
+    const Outcome outcome = runCommand({"info", path});
     ASSERT_EQ(outcome.code, kDone) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
     EXPECT_NEAR(json.at("intensity_ratio").get<double>() / strongest, 1, 1e-6);
@@ -347,21 +333,8 @@ TEST_F(VerbsOnAScene, LimitsReachTheLoader) {
               testing::AllOf(HasSubstr("kinds.glb: "), HasSubstr("(--max-triangles)\n")));
 }
 
-/// Sends the process a SIGINT when something is first written to it, as a person would who has seen the first progress.
-class InterruptingBuffer : public std::stringbuf {
- protected:
-  std::streamsize xsputn(const char* text, std::streamsize size) override {
-    if (!sent_) std::raise(SIGINT);
-    sent_ = true;
-    return std::stringbuf::xsputn(text, size);
-  }
-
- private:
-  bool sent_ = false;
-};
-
 TEST_F(VerbsOnAScene, InterruptionWritesWhatHasBeenAccumulated) {
-  InterruptingBuffer buffer;
+  InterruptingBuffer buffer("", 1);  // the first progress
   std::ostream err(&buffer);
   const Outcome outcome = render("a.pfm", {"--spp", "1000000000", "--report", path("report.json")}, &err, true);
   EXPECT_EQ(outcome.code, kDone);
@@ -374,4 +347,4 @@ TEST_F(VerbsOnAScene, InterruptionWritesWhatHasBeenAccumulated) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

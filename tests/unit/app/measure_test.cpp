@@ -4,6 +4,7 @@
 #include "app/measure/summary.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
+#include "tests/support/command_run.h"
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
@@ -20,16 +21,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Outcome {
-  int code;
-  std::string err;
-};
 
 /// Keeps the references in a folder of the test's own.
 class MeasureTest : public testing::Test {
@@ -39,13 +35,6 @@ class MeasureTest : public testing::Test {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  Outcome run(const std::vector<std::string>& arguments, std::ostream* err = nullptr) {
-    std::vector<const char*> args{"cellcut"};
-    for (const std::string& argument : arguments) args.push_back(argument.c_str());
-    std::ostringstream out, ownErr;
-    const int code = runCommandLine(args, out, err != nullptr ? *err : ownErr);
-    return {code, ownErr.str()};
-  }
   /// A measurement of two strategies with 20 lights.
   std::vector<std::string> arguments(const std::string& output, const std::vector<std::string>& more = {}) {
     std::vector<std::string> args{
@@ -56,7 +45,7 @@ class MeasureTest : public testing::Test {
     return args;
   }
   Outcome measure(const std::string& output, const std::vector<std::string>& more = {}, std::ostream* err = nullptr) {
-    return run(arguments(output, more), err);
+    return runCommand(arguments(output, more), err);
   }
   nlohmann::json results(const std::string& output) const {
     std::ifstream file(folder_ / output / "results.json");
@@ -171,24 +160,6 @@ TEST_F(MeasureTest, RepeatsBitForBit) {
   }
 }
 
-/// Sends the process a SIGINT when a text is written to it for the n-th time.
-class InterruptingBuffer : public std::stringbuf {
- public:
-  InterruptingBuffer(std::string text, int count) : text_(std::move(text)), count_(count) {}
-
- protected:
-  std::streamsize xsputn(const char* text, std::streamsize size) override {
-    if (std::string_view(text, static_cast<std::size_t>(size)).find(text_) != std::string_view::npos && --count_ == 0) {
-      std::raise(SIGINT);
-    }
-    return std::stringbuf::xsputn(text, size);
-  }
-
- private:
-  std::string text_;
-  int count_;
-};
-
 TEST_F(MeasureTest, ResumedEndsAsUninterrupted) {
   ASSERT_EQ(measure("a").code, kDone);
   std::filesystem::remove_all(folder_ / "cellcut");
@@ -207,7 +178,7 @@ TEST_F(MeasureTest, ResumeAddsRuns) {
   ASSERT_EQ(measure("a").code, kDone);
   auto more = arguments("a", {"--resume"});
   *(std::find(more.begin(), more.end(), "--runs") + 1) = "3";
-  ASSERT_EQ(run(more).code, kDone);
+  ASSERT_EQ(runCommand(more).code, kDone);
   EXPECT_EQ(results("a").at("runs").size(), 6u);
 }
 
@@ -244,7 +215,7 @@ TEST_F(MeasureTest, ReferenceIsMadeOnce) {
 TEST_F(MeasureTest, NoisyReferenceIsRefused) {
   auto noisy = arguments("a");
   *(std::find(noisy.begin(), noisy.end(), "--reference-spp") + 1) = "4";
-  const Outcome outcome = run(noisy);
+  const Outcome outcome = runCommand(noisy);
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("--reference-spp"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a" / "results.csv"));
@@ -257,18 +228,18 @@ TEST_F(MeasureTest, GivenReferenceIsJudgedToo) {
     *std::find(args.begin(), args.end(), "hall") = "rooms";
     return args;
   };
-  ASSERT_EQ(run(ofRooms("a", {})).code, kDone);
+  ASSERT_EQ(runCommand(ofRooms("a", {})).code, kDone);
   auto given = ofRooms("b", {"--reference", path("a/images/rooms-20-depth2.reference.exr")});
   const auto passes = std::find(given.begin(), given.end(), "--reference-spp");
   given.erase(passes, passes + 2);
-  ASSERT_EQ(run(given).code, kDone);
+  ASSERT_EQ(runCommand(given).code, kDone);
   EXPECT_EQ(errorsOf(results("a")), errorsOf(results("b")));
   EXPECT_LT(results("b").at("cases").at(0).at("reference").at("relmse"),
             results("b").at("runs").at(0).at("checkpoints").at(3).at("relmse"));
   given = ofRooms("c", {"--reference", path("a/images/rooms-20-depth2.cell-cut.exr"), "--seed", "7"});
   given.erase(std::find(given.begin(), given.end(), "--reference-spp"),
               std::find(given.begin(), given.end(), "--reference-spp") + 2);
-  const Outcome outcome = run(given);
+  const Outcome outcome = runCommand(given);
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("less noise"));
 }
@@ -298,10 +269,10 @@ TEST_F(MeasureTest, BadArgumentsAreRefused) {
   refused({"--time", "1"}, "excludes");
   refused({"--camera", "nowhere"}, "nowhere");
   const std::string file = path("a.glb");
-  ASSERT_EQ(run({"generate", "kinds", "--lights", "3", "-o", file}).code, kDone);
+  ASSERT_EQ(runCommand({"generate", "kinds", "--lights", "3", "-o", file}).code, kDone);
   const auto ofFile = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"measure", file, "-o", path("file"), "--size", "8x8", "--spp", "1"});
-    return run(more);
+    return runCommand(more);
   };
   EXPECT_THAT(ofFile({"--strategies", "cell-cut,cell-cut"}).err, HasSubstr("twice"));
   EXPECT_THAT(ofFile({"--strategies", "magic"}).err, HasSubstr("uniform, power"));
@@ -359,4 +330,4 @@ TEST(Summary, SlopeAndInefficiencyOfAPerfectRunAreExact) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

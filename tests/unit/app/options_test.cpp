@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "renderer/base/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 #include <fstream>
@@ -13,7 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -35,12 +36,7 @@ class RenderOptionsTest : public testing::Test {
     return options;
   }
   std::string refusalOf(const std::vector<std::string>& more) {
-    try {
-      parse(more);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusalOf([&] { parse(more); });
   }
   test::TemporaryDirectory folder_;
 };
@@ -289,4 +285,4 @@ TEST(FindCamera, RefusalListsTheCameras) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

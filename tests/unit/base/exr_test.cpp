@@ -2,6 +2,7 @@
 #include "renderer/base/image_codecs.h"
 #include "renderer/base/rng.h"
 #include "tests/support/hostile_budget.h"
+#include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 
 #include <bit>
@@ -24,12 +25,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
 
-std::vector<std::byte> bytesOf(const Imf::StdOSStream& stream) {
+std::vector<std::byte> bytesIn(const Imf::StdOSStream& stream) {
   const std::string text = stream.str();
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
@@ -77,7 +78,7 @@ std::vector<std::byte> scanLines(const Imf::Header& header, std::initializer_lis
     const Imath::Box2i& window = header.dataWindow();
     file.writePixels(window.max.y - window.min.y + 1);
   }
-  return bytesOf(stream);
+  return bytesIn(stream);
 }
 
 void expectPattern(const ImageRgb& image) {
@@ -88,13 +89,8 @@ void expectPattern(const ImageRgb& image) {
   }
 }
 
-std::string messageOf(std::span<const std::byte> encoded) {
-  try {
-    decodeExr(encoded, "picture");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+std::string exrRefusal(std::span<const std::byte> encoded) {
+  return refusalOf([&] { decodeExr(encoded, "picture"); });
 }
 
 TEST(ExrReader, ReadsEveryCompression) {
@@ -135,7 +131,7 @@ TEST(ExrReader, ReadsPixelTypes) {
     file.setFrameBuffer(frame);
     file.writePixels(9);
   }
-  EXPECT_EQ(decodeExr(bytesOf(stream), "uint").at(8, 8), Vec3(4e9f));
+  EXPECT_EQ(decodeExr(bytesIn(stream), "uint").at(8, 8), Vec3(4e9f));
 }
 
 TEST(ExrReader, ReadsTiles) {
@@ -151,7 +147,7 @@ TEST(ExrReader, ReadsTiles) {
       file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
     }
   }
-  const ImageRgb image = decodeExr(bytesOf(stream), "tiles");
+  const ImageRgb image = decodeExr(bytesIn(stream), "tiles");
   ASSERT_EQ(image.width(), 50);
   ASSERT_EQ(image.height(), 30);
   expectPattern(image);
@@ -206,7 +202,7 @@ std::vector<std::byte> threeParts() {
       part.writePixels(4);
     }
   }
-  return bytesOf(stream);
+  return bytesIn(stream);
 }
 
 TEST(ExrReader, ReadsTheFirstPartThatHasColor) {
@@ -218,9 +214,9 @@ TEST(ExrReader, RefusesPicturesWithoutColor) {
   addChannels(prefixed, {"diffuse.R", "diffuse.G", "diffuse.B"});
   addChannels(chroma, {"Y", "RY", "BY"});
   addChannels(partial, {"R", "G"});
-  EXPECT_THAT(messageOf(scanLines(prefixed, {"diffuse.R", "diffuse.G", "diffuse.B"})), HasSubstr("prefix"));
-  EXPECT_THAT(messageOf(scanLines(chroma, {"Y", "RY", "BY"})), HasSubstr("R, G and B"));
-  EXPECT_THAT(messageOf(scanLines(partial, {"R", "G"})), HasSubstr("R, G and B"));
+  EXPECT_THAT(exrRefusal(scanLines(prefixed, {"diffuse.R", "diffuse.G", "diffuse.B"})), HasSubstr("prefix"));
+  EXPECT_THAT(exrRefusal(scanLines(chroma, {"Y", "RY", "BY"})), HasSubstr("R, G and B"));
+  EXPECT_THAT(exrRefusal(scanLines(partial, {"R", "G"})), HasSubstr("R, G and B"));
 }
 
 TEST(ExrReader, ReadsPlainPicturesHoweverWellTheyCompress) {
@@ -240,7 +236,7 @@ TEST(ExrReader, ReadsPlainPicturesHoweverWellTheyCompress) {
       file.setFrameBuffer(frame);
       file.writePixels(512);
     }
-    EXPECT_EQ(messageOf(bytesOf(stream)), "no error") << "compression " << c;
+    EXPECT_EQ(exrRefusal(bytesIn(stream)), "was not refused") << "compression " << c;
   }
 }
 
@@ -272,7 +268,7 @@ void put32(std::vector<std::byte>& file, std::size_t at, std::uint32_t value) {
 TEST(ExrReader, RefusesAttributeLargerThanTheFile) {
   std::vector<std::byte> file = smallFile();
   put32(file, valueOf(file, "screenWindowWidth", "float") - 4, 0x7fffffff);
-  EXPECT_THAT(messageOf(file), HasSubstr("attribute"));
+  EXPECT_THAT(exrRefusal(file), HasSubstr("attribute"));
 }
 
 TEST(ExrReader, RefusesAttributeOfAnotherSizeThanItsType) {
@@ -282,10 +278,10 @@ TEST(ExrReader, RefusesAttributeOfAnotherSizeThanItsType) {
   std::vector<std::byte> longer = file, shorter = file;
   longer[size] = static_cast<std::byte>(std::to_integer<int>(file[size]) + 4);
   shorter[size] = static_cast<std::byte>(std::to_integer<int>(file[size]) - 4);
-  EXPECT_THAT(messageOf(longer), HasSubstr("attribute"));
-  EXPECT_THAT(messageOf(shorter), HasSubstr("attribute"));
+  EXPECT_THAT(exrRefusal(longer), HasSubstr("attribute"));
+  EXPECT_THAT(exrRefusal(shorter), HasSubstr("attribute"));
   file[find(file, "screenWindowWidth") + 17 + 1 + 6] = std::byte{5};  // a float of five bytes
-  EXPECT_THAT(messageOf(file), HasSubstr("attribute"));
+  EXPECT_THAT(exrRefusal(file), HasSubstr("attribute"));
 }
 
 TEST(ExrReader, RefusesWindowsThatTheFileCannotHold) {
@@ -303,14 +299,14 @@ TEST(ExrReader, RefusesWindowsThatTheFileCannotHold) {
     std::vector<std::byte> file = smallFile();
     const std::size_t lower = valueOf(file, name, "box2i") + 4 * axis, upper = lower + 8;
     put32(file, upper, (1 << 24) - 1);
-    EXPECT_THAT(messageOf(file), HasSubstr(refusal)) << what;
+    EXPECT_THAT(exrRefusal(file), HasSubstr(refusal)) << what;
     for (const std::uint32_t end : {0x7ffffffeu, 0xffffffffu}) {  // 2³¹ − 1 pixels, none
       put32(file, upper, end);
-      EXPECT_NE(messageOf(file), "no error") << what;
+      EXPECT_NE(exrRefusal(file), "was not refused") << what;
     }
     put32(file, lower, 0x80000000);
     put32(file, upper, 0x7fffffff);
-    EXPECT_NE(messageOf(file), "no error") << what;
+    EXPECT_NE(exrRefusal(file), "was not refused") << what;
   }
 }
 
@@ -329,7 +325,7 @@ TEST(ExrReader, RefusesAMillionChannels) {
   file.erase(file.begin() + static_cast<std::ptrdiff_t>(old), file.begin() + static_cast<std::ptrdiff_t>(end + 1));
   file.insert(file.begin() + static_cast<std::ptrdiff_t>(old), bytes.begin(), bytes.end());
   const test::HostileBudget budget("channels");
-  EXPECT_THAT(messageOf(file), HasSubstr("picture: has more than 16384 attributes and channels"));
+  EXPECT_THAT(exrRefusal(file), HasSubstr("picture: has more than 16384 attributes and channels"));
 }
 
 TEST(ExrReader, RefusesAMillionAttributes) {
@@ -341,7 +337,7 @@ TEST(ExrReader, RefusesAMillionAttributes) {
   const auto bytes = std::as_bytes(std::span(attributes));
   file.insert(file.begin() + 8, bytes.begin(), bytes.end());
   const test::HostileBudget budget("attributes");
-  EXPECT_THAT(messageOf(file), HasSubstr("picture: has more than 16384 attributes and channels"));
+  EXPECT_THAT(exrRefusal(file), HasSubstr("picture: has more than 16384 attributes and channels"));
 }
 
 TEST(ExrReader, RefusesAHundredThousandParts) {
@@ -352,7 +348,7 @@ TEST(ExrReader, RefusesAHundredThousandParts) {
   for (int i = 0; i < 100'000; ++i) headers.insert(headers.end(), header.begin(), header.end());
   file.insert(file.begin() + 8, headers.begin(), headers.end());
   const test::HostileBudget budget("parts");
-  EXPECT_THAT(messageOf(file), HasSubstr("picture: has more than 16384 attributes and channels"));
+  EXPECT_THAT(exrRefusal(file), HasSubstr("picture: has more than 16384 attributes and channels"));
 }
 
 TEST(ExrReader, ChecksTheHeaderOfEveryPart) {
@@ -363,11 +359,11 @@ TEST(ExrReader, ChecksTheHeaderOfEveryPart) {
     std::vector<std::byte> file = whole;
     const std::size_t window = valueOf(file, "dataWindow", "box2i", from);
     put32(file, window - 4, 0x7fffffff);
-    EXPECT_THAT(messageOf(file), HasSubstr("attribute")) << part;
+    EXPECT_THAT(exrRefusal(file), HasSubstr("attribute")) << part;
     file = whole;
     put32(file, window + 8, (1 << 24) - 1);
     put32(file, window + 12, (1 << 24) - 1);
-    EXPECT_NE(messageOf(file), "no error") << part;
+    EXPECT_NE(exrRefusal(file), "was not refused") << part;
     from = window;
   }
   EXPECT_EQ(asText(whole).find("dataWindow", from), std::string_view::npos) << "there is a fourth";
@@ -383,7 +379,7 @@ TEST(ExrReader, ADamagedSecondHeaderIsReadOrRefused) {
     const test::HostileBudget budget(std::to_string(i));
     std::vector<std::byte> file = whole;
     file[begin + rng.below(static_cast<std::uint32_t>(end - begin))] = static_cast<std::byte>(rng.below(256));
-    refused += messageOf(file) != "no error";
+    refused += exrRefusal(file) != "was not refused";
   }
   EXPECT_GT(refused, 500);  // else the damage missed everything that matters
 }
@@ -397,8 +393,8 @@ TEST(ExrReader, NumbersThatAreNoneDoNotReachThePixels) {
     for (const float value : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, -1.0f, 0.0f, 1e-45f}) {
       std::vector<std::byte> file = smallFile();
       put32(file, valueOf(file, name, type), std::bit_cast<std::uint32_t>(value));
-      const std::string message = messageOf(file);
-      if (message == "no error") {
+      const std::string message = exrRefusal(file);
+      if (message == "was not refused") {
         expectPattern(decodeExr(file, name));
       } else {
         EXPECT_THAT(message, testing::MatchesRegex("picture: cannot be decoded \\(.*\\); save it again"));
@@ -418,12 +414,12 @@ TEST(ExrReader, RefusesTilesFarLargerThanThePicture) {
     output.setFrameBuffer(frame.buffer());
     output.writeTile(0, 0);
   }
-  std::vector<std::byte> file = bytesOf(stream);
+  std::vector<std::byte> file = bytesIn(stream);
   const std::size_t at = find(file, "tiledesc") + 9 + 4;
-  ASSERT_EQ(messageOf(file), "no error");
+  ASSERT_EQ(exrRefusal(file), "was not refused");
   put32(file, at, 1 << 14);
   put32(file, at + 4, 1 << 14);
-  EXPECT_THAT(messageOf(file), HasSubstr("tiles"));
+  EXPECT_THAT(exrRefusal(file), HasSubstr("tiles"));
 }
 
 TEST(ExrReader, FileCutOffAnywhereIsRefused) {
@@ -448,7 +444,7 @@ TEST(ExrReader, RandomlyDamagedFilesAreReadOrRefused) {
       for (std::uint32_t k = 0; k <= rng.below(4); ++k) {
         file[rng.below(static_cast<std::uint32_t>(file.size()))] = static_cast<std::byte>(rng.below(256));
       }
-      refused += messageOf(file) != "no error";
+      refused += exrRefusal(file) != "was not refused";
     }
     EXPECT_GT(refused, 0) << "compression " << compression;  // else the damage missed everything that matters
   }
@@ -457,8 +453,8 @@ TEST(ExrReader, RandomlyDamagedFilesAreReadOrRefused) {
 TEST(ExrReader, MessagesAreOneLine) {
   std::vector<std::byte> file = smallFile();
   file[find(file, "lineOrder") + 10] = std::byte{'\n'};  // of its type, which the library's message quotes
-  const std::string message = messageOf(file);
-  EXPECT_NE(message, "no error");
+  const std::string message = exrRefusal(file);
+  EXPECT_NE(message, "was not refused");
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
@@ -528,4 +524,4 @@ TEST_F(ExrCorpus, EnvironmentsHaveLight) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

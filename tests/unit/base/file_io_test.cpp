@@ -1,6 +1,8 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
+#include "tests/support/bytes.h"
 #include "tests/support/hostile_budget.h"
+#include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 #include "tests/support/temporary_directory.h"
 
@@ -12,15 +14,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-std::span<const std::byte> bytesOf(std::string_view text) {
-  return std::as_bytes(std::span(text));
-}
 
 std::string contentOf(const fs::path& file) {
   const std::vector<std::byte> bytes = readFile(file, 1000);
@@ -28,13 +26,8 @@ std::string contentOf(const fs::path& file) {
 }
 
 /// What readFile says against a file.
-std::string refusalOf(const fs::path& file, std::uintmax_t maxBytes = 1000) {
-  try {
-    readFile(file, maxBytes);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "was not refused";
+std::string readingRefusal(const fs::path& file, std::uintmax_t maxBytes = 1000) {
+  return refusalOf([&] { readFile(file, maxBytes); });
 }
 
 TEST(FileIo, WritesWhatItReads) {
@@ -90,33 +83,34 @@ TEST(FileIo, OldFileStaysWhenTheDiskIsFull) {
 
 TEST(FileIo, AMissingFileIsRefused) {
   const test::TemporaryDirectory folder;
-  EXPECT_THAT(refusalOf(folder / "missing"), HasSubstr("missing: does not exist; check"));
+  EXPECT_THAT(readingRefusal(folder / "missing"), HasSubstr("missing: does not exist; check"));
   writeFileAtomically(folder / "a", {});
-  EXPECT_THAT(refusalOf(folder / "a" / "below"), HasSubstr("does not exist"));
+  EXPECT_THAT(readingRefusal(folder / "a" / "below"), HasSubstr("does not exist"));
 }
 
 TEST(FileIo, ALinkThatLeadsNowhereIsRefused) {
   const test::TemporaryDirectory folder;
   fs::create_symlink(folder / "gone", folder / "link");
-  EXPECT_THAT(refusalOf(folder / "link"), HasSubstr("link: is a link to a file that does not exist; put"));
+  EXPECT_THAT(readingRefusal(folder / "link"), HasSubstr("link: is a link to a file that does not exist; put"));
   fs::create_symlink(folder / "self", folder / "self");
-  EXPECT_THAT(refusalOf(folder / "self"), HasSubstr("self: cannot be opened ("));
+  EXPECT_THAT(readingRefusal(folder / "self"), HasSubstr("self: cannot be opened ("));
 }
 
 TEST(FileIo, AFolderIsRefused) {
   const test::TemporaryDirectory folder;
-  EXPECT_THAT(refusalOf(folder.path()), HasSubstr("is a folder; name"));
+  EXPECT_THAT(readingRefusal(folder.path()), HasSubstr("is a folder; name"));
 }
 
 TEST(FileIo, AFifoIsRefused) {
   const test::TemporaryDirectory folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   const test::HostileBudget budget("pipe");  // nobody ever writes into it
-  EXPECT_THAT(refusalOf(folder / "pipe"), HasSubstr("pipe: is no regular file but a pipe or a device; copy"));
+  EXPECT_THAT(readingRefusal(folder / "pipe"), HasSubstr("pipe: is no regular file but a pipe or a device; copy"));
 }
 
 TEST(FileIo, ADeviceIsRefused) {
-  for (const char* device : {"/dev/zero", "/dev/null"}) EXPECT_THAT(refusalOf(device), HasSubstr("a device; copy"));
+  for (const char* device : {"/dev/zero", "/dev/null"})
+    EXPECT_THAT(readingRefusal(device), HasSubstr("a device; copy"));
 }
 
 TEST(FileIo, AFileThatMayNotBeReadIsRefused) {
@@ -125,7 +119,7 @@ TEST(FileIo, AFileThatMayNotBeReadIsRefused) {
   writeFileAtomically(folder / "a", bytesOf("secret"));
   fs::permissions(folder / "a", fs::perms::none);
   const test::OrdinaryUser user;
-  EXPECT_THAT(refusalOf(folder / "a"), HasSubstr("a: cannot be opened (Permission denied); change"));
+  EXPECT_THAT(readingRefusal(folder / "a"), HasSubstr("a: cannot be opened (Permission denied); change"));
 }
 
 TEST(FileIo, AFileInAFolderThatMayNotBeReadIsNotCalledMissing) {
@@ -134,7 +128,7 @@ TEST(FileIo, AFileInAFolderThatMayNotBeReadIsNotCalledMissing) {
   fs::permissions(folder.path(), fs::perms::none);
   {
     const test::OrdinaryUser user;
-    EXPECT_THAT(refusalOf(folder / "a"), HasSubstr("a: cannot be opened (Permission denied); change"));
+    EXPECT_THAT(readingRefusal(folder / "a"), HasSubstr("a: cannot be opened (Permission denied); change"));
   }
   fs::permissions(folder.path(), fs::perms::owner_all);
 }
@@ -144,7 +138,7 @@ TEST(FileIo, AGiantIsRefusedByItsSize) {
   writeFileAtomically(folder / "a", {});
   fs::resize_file(folder / "a", std::uintmax_t{10} << 30);
   const test::HostileBudget budget("10 GB");
-  EXPECT_THAT(refusalOf(folder / "a", std::uintmax_t{1} << 32),
+  EXPECT_THAT(readingRefusal(folder / "a", std::uintmax_t{1} << 32),
               HasSubstr("a: has 10737418240 bytes, more than the limit of 4294967296; make"));
 }
 
@@ -176,8 +170,8 @@ TEST(FileIo, RefusesToReadLargerFileThanAllowed) {
   const test::TemporaryDirectory folder;
   writeFileAtomically(folder / "a", bytesOf("12345"));
   EXPECT_EQ(readFile(folder / "a", 5).size(), 5u);
-  EXPECT_THAT(refusalOf(folder / "a", 4), HasSubstr("a: has 5 bytes, more than the limit of 4; make"));
+  EXPECT_THAT(readingRefusal(folder / "a", 4), HasSubstr("a: has 5 bytes, more than the limit of 4; make"));
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

@@ -1,5 +1,6 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_codecs.h"
+#include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 
 #include <initializer_list>
@@ -8,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
@@ -21,13 +22,8 @@ std::vector<std::byte> hdr(std::string_view resolution, std::initializer_list<in
   return file;
 }
 
-std::string messageOf(std::span<const std::byte> encoded) {
-  try {
-    decodeHdr(encoded, "picture");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+std::string hdrRefusal(std::span<const std::byte> encoded) {
+  return refusalOf([&] { decodeHdr(encoded, "picture"); });
 }
 
 /// One row of eight pixels: red in a run, green one by one, blue in two runs, exponent 128 in one.
@@ -65,23 +61,23 @@ TEST(HdrReader, FileCutOffAnywhereIsRefused) {
 }
 
 TEST(HdrReader, RefusesRunsPastTheirRow) {
-  EXPECT_THAT(messageOf(hdr("-Y 1 +X 8", {2, 2, 0, 8, 128 + 9, 64})), HasSubstr("run past"));
-  EXPECT_THAT(messageOf(hdr("-Y 1 +X 8", {2, 2, 0, 8, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9})), HasSubstr("run past"));
-  EXPECT_THAT(messageOf(hdr("-Y 1 +X 8", {2, 2, 0, 8, 0, 0, 0, 0})), HasSubstr("run past"));
-  EXPECT_THAT(messageOf(hdr("-Y 1 +X 3", {1, 1, 1, 1})), HasSubstr("run past"));  // nothing before it
-  EXPECT_THAT(messageOf(hdr("-Y 1 +X 3", {9, 9, 9, 128, 1, 1, 1, 3})), HasSubstr("run past"));
-  EXPECT_THAT(messageOf(hdr("-Y 1 +X 8", {2, 2, 0, 9})), HasSubstr("another length"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 1 +X 8", {2, 2, 0, 8, 128 + 9, 64})), HasSubstr("run past"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 1 +X 8", {2, 2, 0, 8, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9})), HasSubstr("run past"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 1 +X 8", {2, 2, 0, 8, 0, 0, 0, 0})), HasSubstr("run past"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 1 +X 3", {1, 1, 1, 1})), HasSubstr("run past"));  // nothing before it
+  EXPECT_THAT(hdrRefusal(hdr("-Y 1 +X 3", {9, 9, 9, 128, 1, 1, 1, 3})), HasSubstr("run past"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 1 +X 8", {2, 2, 0, 9})), HasSubstr("another length"));
 }
 
 TEST(HdrReader, RefusesHeadersBeforeAllocating) {
   const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
-  EXPECT_THAT(messageOf(hdr("-Y 16384 +X 16384", {0})), HasSubstr("cannot be in a file"));
-  EXPECT_THAT(messageOf(hdr("-Y 2000000000 +X 2000000000", {0})), HasSubstr("limit"));
-  EXPECT_THAT(messageOf(hdr("-Y -1 +X 1", {0})), HasSubstr("damaged"));
-  EXPECT_THAT(messageOf(hdr("-Y 0 +X 0", {0})), HasSubstr("damaged"));
-  EXPECT_THAT(messageOf(hdr("-Y 99999999999999999999 +X 1", {0})), HasSubstr("size"));
-  EXPECT_THAT(messageOf(hdr("+Y 1 +X 1", {0, 0, 0, 0})), HasSubstr("-Y +X"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 16384 +X 16384", {0})), HasSubstr("cannot be in a file"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 2000000000 +X 2000000000", {0})), HasSubstr("limit"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y -1 +X 1", {0})), HasSubstr("damaged"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 0 +X 0", {0})), HasSubstr("damaged"));
+  EXPECT_THAT(hdrRefusal(hdr("-Y 99999999999999999999 +X 1", {0})), HasSubstr("size"));
+  EXPECT_THAT(hdrRefusal(hdr("+Y 1 +X 1", {0, 0, 0, 0})), HasSubstr("-Y +X"));
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

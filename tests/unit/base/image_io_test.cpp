@@ -3,7 +3,9 @@
 #include "renderer/base/error.h"
 #include "renderer/base/rng.h"
 #include "renderer/base/tone_map.h"
+#include "tests/support/bytes.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 #include "tests/support/temporary_directory.h"
 
@@ -14,15 +16,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
-
-std::vector<std::byte> bytesOf(std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
 
 ImageRgb noise(int width, int height) {
   Rng rng(7);
@@ -45,22 +42,12 @@ LayeredImage oneLayer(const ImageRgb& image) {
   return layered;
 }
 
-std::string messageOf(std::span<const std::byte> encoded) {
-  try {
-    decodeImage(encoded, "picture");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+std::string imageRefusal(std::span<const std::byte> encoded) {
+  return refusalOf([&] { decodeImage(encoded, "picture"); });
 }
 
-std::string messageOf8(std::span<const std::byte> encoded) {
-  try {
-    decodeImage8(encoded, "picture");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+std::string imageBytesRefusal(std::span<const std::byte> encoded) {
+  return refusalOf([&] { decodeImage8(encoded, "picture"); });
 }
 
 TEST(ImageIo, PfmKeepsEveryBit) {
@@ -107,8 +94,8 @@ TEST(ImageIo, Png8KeepsColorAndAlpha) {
 }
 
 TEST(ImageIo, RefusesWhatIsNoPicture) {
-  EXPECT_THAT(messageOf(bytesOf("")), HasSubstr("picture: is no"));
-  EXPECT_THAT(messageOf(bytesOf("lamp")), HasSubstr("is no OpenEXR"));
+  EXPECT_THAT(imageRefusal(bytesOf("")), HasSubstr("picture: is no"));
+  EXPECT_THAT(imageRefusal(bytesOf("lamp")), HasSubstr("is no OpenEXR"));
   EXPECT_THROW(decodeImage8(bytesOf("lamp"), "texture"), InputError);
   EXPECT_THROW(decodeImage8({}, "texture"), InputError);
 }
@@ -168,7 +155,7 @@ TEST(ImageIo, RefusesJpegSizeThatItsBytesCannotHoldBeforeAllocating) {
   jpeg[7 + 64 + 5] = std::byte{0x3f};  // height
   jpeg[7 + 64 + 7] = std::byte{0x3f};  // width
   const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
-  EXPECT_THAT(messageOf8(jpeg), HasSubstr("picture: 16136 x 16136 pixels cannot be in a file of"));
+  EXPECT_THAT(imageBytesRefusal(jpeg), HasSubstr("picture: 16136 x 16136 pixels cannot be in a file of"));
 }
 
 TEST(ImageIo, Png8RefusesSizeThatItsBytesCannotHoldBeforeAllocating) {
@@ -176,20 +163,20 @@ TEST(ImageIo, Png8RefusesSizeThatItsBytesCannotHoldBeforeAllocating) {
   png[17] = std::byte{0x10};  // width 0x00100010
   png[21] = std::byte{0x01};
   const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
-  EXPECT_THAT(messageOf8(png), HasSubstr("picture: has no valid header"));  // for stb
+  EXPECT_THAT(imageBytesRefusal(png), HasSubstr("picture: has no valid header"));  // for stb
   png[17] = png[21] = std::byte{0};
   png[18] = png[22] = std::byte{0x3f};
-  EXPECT_THAT(messageOf8(png), HasSubstr("picture: 16144 x 16144 pixels cannot be in a file of"));
+  EXPECT_THAT(imageBytesRefusal(png), HasSubstr("picture: 16144 x 16144 pixels cannot be in a file of"));
 }
 
 TEST(ImageIo, Png8RefusesChunkPastTheFileBeforeAllocating) {
   std::vector<std::byte> png = encodePng(ImageRgba8(16, 16));
   png[33] = std::byte{0x40};  // length of the first chunk after the header: 1 GB
   const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
-  EXPECT_THAT(messageOf8(png), HasSubstr("picture: a PNG chunk reaches past the end of the file; copy"));
+  EXPECT_THAT(imageBytesRefusal(png), HasSubstr("picture: a PNG chunk reaches past the end of the file; copy"));
   constexpr std::size_t kFirstChunk = 33;
   for (std::size_t header = 8; header < 12; ++header) {  // nothing of it is there but its header
-    EXPECT_THAT(messageOf8(std::span(png).first(kFirstChunk + header)), HasSubstr("a PNG chunk reaches past"));
+    EXPECT_THAT(imageBytesRefusal(std::span(png).first(kFirstChunk + header)), HasSubstr("a PNG chunk reaches past"));
   }
 }
 
@@ -218,8 +205,8 @@ TEST(Pfm, ScaleMultiplies) {
 
 TEST(Pfm, RefusesHeadersBeforeAllocating) {
   const test::AddressSpaceLimit limit(test::kPlentyForRefusal);
-  EXPECT_THAT(messageOf(bytesOf("PF\n16384 16384\n-1\n")), HasSubstr("cannot be in a file of 18 bytes"));
-  EXPECT_THAT(messageOf(bytesOf("PF\n16384 16385\n-1\n")), HasSubstr("more than the limit"));
+  EXPECT_THAT(imageRefusal(bytesOf("PF\n16384 16384\n-1\n")), HasSubstr("cannot be in a file of 18 bytes"));
+  EXPECT_THAT(imageRefusal(bytesOf("PF\n16384 16385\n-1\n")), HasSubstr("more than the limit"));
 }
 
 TEST(ImageIo, RefusesPicturesPastALimitOfDecodedBytes) {
@@ -246,9 +233,9 @@ TEST(Pfm, RefusesBadHeaders) {
        {"PF", "PF\n", "PF\n1", "PF\n1 1\n", "PF\n1 1\n-1", "PF\n-1 1\n-1\n", "PF\n0 1\n-1\n", "PF\nx 1\n-1\n",
         "PF\n1 1\n0\n", "PF\n1 1\nnan\n", "PF\n1 1\n-1\n123456789ab", "PF\n99999999999999999999 1\n-1\n",
         "PF\n9223372036854775807 9223372036854775807\n-1\n", "PF\n16384 16385\n-1\n"}) {
-    EXPECT_THAT(messageOf(bytesOf(text)), HasSubstr("picture: ")) << text;
+    EXPECT_THAT(imageRefusal(bytesOf(text)), HasSubstr("picture: ")) << text;
   }
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

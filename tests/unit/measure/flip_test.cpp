@@ -14,7 +14,7 @@ namespace {
 constexpr Vec3 kBlack{0, 0, 0}, kWhite{1, 1, 1}, kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1};
 // Float sums of up to 441 weights leave 1e-3 of an error in L*a*b* and through the slope of the metric, 0.04 per unit,
 // 4e-5.
-constexpr double kRounding = 1e-4;
+constexpr double kMetricRounding = 1e-4;
 
 double mean(const Image<float>& error) {
   double sum = 0;
@@ -148,12 +148,12 @@ TEST(Flip, IsZeroForTheSamePicture) {
 
 TEST(Flip, PlainColorsDifferByTheirCompressedDistance) {
   // Computed by hand from the paper's equations; without edges only the distance of the two colours is left.
-  EXPECT_NEAR(flipOfColors(kBlack, kWhite), 0.9673797614921327, kRounding);
-  EXPECT_NEAR(flipOfColors(kRed, kBlue), 0.9650790225050357, kRounding);
-  EXPECT_NEAR(flipOfColors(kRed, kGreen), 0.9866622751952874, kRounding);
-  EXPECT_NEAR(flipOfColors(kGreen, kBlue), 1, kRounding);
-  EXPECT_NEAR(flipOfColors(Vec3(0.5f), Vec3(0.52f)), 0.06581283282068773, kRounding);
-  EXPECT_NEAR(flipOfColors(Vec3(0.18f), {0.2f, 0.18f, 0.16f}), 0.11041534912073062, kRounding);
+  EXPECT_NEAR(flipOfColors(kBlack, kWhite), 0.9673797614921327, kMetricRounding);
+  EXPECT_NEAR(flipOfColors(kRed, kBlue), 0.9650790225050357, kMetricRounding);
+  EXPECT_NEAR(flipOfColors(kRed, kGreen), 0.9866622751952874, kMetricRounding);
+  EXPECT_NEAR(flipOfColors(kGreen, kBlue), 1, kMetricRounding);
+  EXPECT_NEAR(flipOfColors(Vec3(0.5f), Vec3(0.52f)), 0.06581283282068773, kMetricRounding);
+  EXPECT_NEAR(flipOfColors(Vec3(0.18f), {0.2f, 0.18f, 0.16f}), 0.11041534912073062, kMetricRounding);
 }
 
 TEST(Flip, FollowsThePapersEquationsPixelByPixel) {
@@ -206,8 +206,8 @@ TEST(Flip, StaysBetweenZeroAndOne) {
 TEST(Flip, DoesNotDependOnOrientation) {
   const ImageRgb a = noise(30, 20, 8), b = noise(30, 20, 9);
   const double upright = mean(flipHdr(a, b));
-  EXPECT_NEAR(mean(flipHdr(transposed(a), transposed(b))), upright, kRounding);
-  EXPECT_NEAR(mean(flipHdr(mirrored(a), mirrored(b))), upright, kRounding);
+  EXPECT_NEAR(mean(flipHdr(transposed(a), transposed(b))), upright, kMetricRounding);
+  EXPECT_NEAR(mean(flipHdr(mirrored(a), mirrored(b))), upright, kMetricRounding);
 }
 
 TEST(Flip, SeesLessFromFartherAway) {
@@ -221,7 +221,7 @@ TEST(FlipHdr, PlainReferenceIsShownAtEightyFivePercent) {
   const FlipExposures exposures = flipExposures(reference);
   EXPECT_NEAR(exposures.start, std::log2(2.1188723239873157), 1e-7);  // luminance's weights sum to 1 in double
   EXPECT_NEAR(exposures.stop, exposures.start, 1e-12);
-  EXPECT_NEAR(mean(flipHdr(ImageRgb(8, 8, Vec3(1.5f)), reference)), 0.10912632725795715, kRounding);
+  EXPECT_NEAR(mean(flipHdr(ImageRgb(8, 8, Vec3(1.5f)), reference)), 0.10912632725795715, kMetricRounding);
 }
 
 TEST(FlipHdr, ExposuresReachFromTheBrightestToTheMedian) {
@@ -264,7 +264,7 @@ TEST(FlipHdr, HasAnAnswerForBlackAndForBadNumbers) {
 }
 
 TEST(Flip, WorksOnASinglePixel) {
-  EXPECT_NEAR(mean(flipLdr(ImageRgb(1, 1, kBlack), ImageRgb(1, 1, kWhite))), 0.96738, kRounding);
+  EXPECT_NEAR(mean(flipLdr(ImageRgb(1, 1, kBlack), ImageRgb(1, 1, kWhite))), 0.96738, kMetricRounding);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 namespace cellcut::test {
 namespace {
 
-const std::atomic<bool> kNever{false};
 /// Points per side of the midpoint rule in these tests.
 constexpr int kPerSide = 24;
 

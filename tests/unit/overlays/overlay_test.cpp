@@ -12,7 +12,6 @@
 namespace cellcut::test {
 namespace {
 
-const std::atomic<bool> kNever{false};
 using Cell = std::tuple<int, int, int, bool>;
 
 /// An overlay and everything about the rendering that it is counted again from.

@@ -6,6 +6,7 @@
 #include "renderer/trace/renderer.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/vectors.h"
 
 #include <array>
 #include <numeric>
@@ -23,11 +24,6 @@ struct ManyLights {
   Lights lights;
   LightTrees trees;
 };
-
-Vec3 randomUnit(Rng& rng) {
-  const float z = rng.uniform(-1, 1), phi = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
 
 void expectNodeHoldsItsChildren(const LightTree& tree, NodeId id, bool distant) {
   const LightTreeNode& node = tree.node(id);

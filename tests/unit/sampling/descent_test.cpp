@@ -4,6 +4,7 @@
 #include "renderer/sampling/mirrored_lights.h"
 #include "renderer/scene/ggx.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 #include <map>
 
@@ -11,11 +12,6 @@
 
 namespace cellcut::test {
 namespace {
-
-Vec3 randomUnit(Rng& rng) {
-  const float z = rng.uniform(-1, 1), phi = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
 
 /// A thousand lights of all kinds in a room of about two metres, and points in it.
 struct Room {

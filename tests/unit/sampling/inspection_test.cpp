@@ -13,7 +13,7 @@ namespace cellcut::test {
 namespace {
 
 /// Probabilities are read from the weights that sampling uses; what is left are roundings of pmf() to float.
-constexpr double kRounding = 1e-5;
+constexpr double kPmfRounding = 1e-5;
 
 /// Strategies with cuts, with clusters of one light and with clusters of many.
 constexpr std::array kCutVariants{
@@ -61,17 +61,17 @@ TEST_P(CutInspection, ProbabilitiesAreTheSamplersOwn) {
       sumOfPmf += inCluster;
       // A descent can end where none of the lights below is above the horizon: then less comes out than went in.
       const bool canEndInNothing = variant().settings.inCluster == InCluster::kDescent && cluster.lightCount > 1;
-      ASSERT_LE(inCluster, cluster.probability + kRounding);
+      ASSERT_LE(inCluster, cluster.probability + kPmfRounding);
       if (!canEndInNothing) {
-        ASSERT_NEAR(inCluster, cluster.probability, kRounding);
+        ASSERT_NEAR(inCluster, cluster.probability, kPmfRounding);
       }
     }
     if (sumOfPmf > 0) {
-      ASSERT_NEAR(chosen, 1, kRounding);
+      ASSERT_NEAR(chosen, 1, kPmfRounding);
     }
     double everyLight = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) everyLight += pmf(point, static_cast<LightId>(i));
-    ASSERT_NEAR(sumOfPmf, everyLight, kRounding);  // no light that can be drawn is missing from the clusters
+    ASSERT_NEAR(sumOfPmf, everyLight, kPmfRounding);  // no light that can be drawn is missing from the clusters
   }
 }
 

@@ -1,16 +1,11 @@
 #include "renderer/scene/camera.h"
 
+#include "tests/support/vectors.h"
+
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
-
-// A few roundings of values near 1.
-constexpr float kRounding = 1e-6f;
-
-void expectNear(const Vec3& a, const Vec3& b) {
-  EXPECT_LT(glm::length(a - b), kRounding) << a.x << ' ' << a.y << ' ' << a.z;
-}
 
 TEST(Camera, LooksAlongMinusZThroughTheMiddleOfTheFilm) {
   Camera camera;
@@ -72,4 +67,4 @@ TEST(DefaultCamera, OfAnEmptySceneIsValid) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

@@ -3,35 +3,25 @@
 #include "renderer/base/error.h"
 #include "renderer/base/rng.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/support/vectors.h"
 
 #include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-// Angles and their sines through a few roundings of numbers up to 2π.
-constexpr float kRounding = 2e-6f;
 
 Environment turned(double degrees, ImageRgb image = ImageRgb(4, 2, Vec3(1.0f))) {
   Scene scene;
   setEnvironment(scene, std::move(image), 1, degrees, "picture");
   return *scene.environment;
-}
-
-void expectNear(const Vec3& a, const Vec3& b, float tolerance = kRounding) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], tolerance);
-}
-
-Vec3 randomDirection(Rng& rng) {
-  const float z = rng.uniform(-1, 1), phi = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(phi), z, r * std::sin(phi)};
 }
 
 TEST(Environment, MiddleOfThePictureLooksAlongXAndRightOfItAlongZ) {
@@ -56,7 +46,7 @@ TEST(Environment, MappingInvertsItself) {
   for (const double rotation : {0.0, 37.0, -300.0}) {
     const Environment environment = turned(rotation);
     for (int i = 0; i < 1000; ++i) {
-      const Vec3 direction = randomDirection(rng);
+      const Vec3 direction = randomUnit(rng);
       const Vec2 uv = latLongFromDirection(environment, direction);
       expectNear(directionFromLatLong(environment, uv), direction);
     }
@@ -128,7 +118,7 @@ TEST(Environment, RadianceIsClampedAtThePoles) {
 TEST(Environment, OnePixelIsTheSameEverywhere) {
   const Environment environment = turned(12, ImageRgb(1, 1, {1, 2, 3}));
   Rng rng(5);
-  for (int i = 0; i < 1000; ++i) expectNear(environmentRadiance(environment, randomDirection(rng)), {1, 2, 3});
+  for (int i = 0; i < 1000; ++i) expectNear(environmentRadiance(environment, randomUnit(rng)), {1, 2, 3});
 }
 
 TEST(Environment, RadianceIsNeverNegativeNorBadNearOneBrightTexel) {
@@ -137,7 +127,7 @@ TEST(Environment, RadianceIsNeverNegativeNorBadNearOneBrightTexel) {
   const Environment environment = turned(77, image);
   Rng rng(6);
   for (int i = 0; i < 10000; ++i) {
-    const Vec3 radiance = environmentRadiance(environment, randomDirection(rng));
+    const Vec3 radiance = environmentRadiance(environment, randomUnit(rng));
     EXPECT_TRUE(radiance.x >= 0 && radiance.x <= 1e6f);
   }
 }
@@ -208,4 +198,4 @@ TEST(EnvironmentCorpus, RealEnvironmentsKeepTheirLight) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

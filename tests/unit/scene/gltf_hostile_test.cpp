@@ -2,8 +2,10 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf_container.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/support/bytes.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/hostile_budget.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 #include <functional>
@@ -11,19 +13,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using test::GltfBuilder;
 using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-/// Of a list that may be a temporary.
-template <class T>
-std::span<const std::byte> bytesOf(const std::vector<T>& values) {
-  return std::as_bytes(std::span(values));
-}
 
 class HostileGltf : public testing::Test {
  protected:
@@ -38,12 +34,7 @@ class HostileGltf : public testing::Test {
     return file;
   }
   std::string refusalOf(const std::filesystem::path& file) {
-    try {
-      loadScene(file);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "was not refused";
+    return test::refusalOf([&] { loadScene(file); });
   }
   /// What the loader says of the sound file after `damage`.
   std::string refusalOf(const std::function<void(Json&)>& damage) {
@@ -338,4 +329,4 @@ TEST_F(HostileGltf, RefusesWhatIsNoSceneFile) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

@@ -1,21 +1,21 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/vectors.h"
 
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using test::GltfBuilder;
 using Json = nlohmann::json;
 using testing::HasSubstr;
-
-constexpr float kRounding = 1e-6f;
 
 class GltfLights : public testing::Test {
  protected:
@@ -30,12 +30,7 @@ class GltfLights : public testing::Test {
     return load(file, scale);
   }
   std::string refusalOf(const Json& light) {
-    try {
-      loadLight(light);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return test::refusalOf([&] { loadLight(light); });
   }
   test::TemporaryDirectory folder;
 };
@@ -141,4 +136,4 @@ TEST_F(GltfLights, SaysThatBlenderWritesLumensUntilAScaleIsGiven) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

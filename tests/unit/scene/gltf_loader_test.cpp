@@ -1,27 +1,20 @@
 #include "renderer/base/error.h"
 #include "renderer/lights/lights.h"
 #include "renderer/scene/load_scene.h"
+#include "tests/support/bytes.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/vectors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using test::GltfBuilder;
 using Json = nlohmann::json;
 using testing::HasSubstr;
-
-/// Of a list that may be a temporary.
-template <class T>
-std::span<const std::byte> bytesOf(const std::vector<T>& values) {
-  return std::as_bytes(std::span(values));
-}
-
-/// Three floats of a value of size 1 after a few roundings.
-constexpr float kRounding = 2e-6f;
 
 class GltfLoader : public testing::Test {
  protected:
@@ -36,10 +29,6 @@ Vec3 filePosition(const Scene& scene, const Mesh& mesh, std::uint32_t vertex) {
 
 Vec3 facet(const Mesh& mesh, const Triangle& t) {
   return glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
-}
-
-void expectNear(const Vec3& a, const Vec3& b, float tolerance = kRounding) {
-  EXPECT_LE(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
 TEST_F(GltfLoader, ReadsATriangleOfEitherContainer) {
@@ -389,4 +378,4 @@ TEST_F(GltfLoader, ReadsTheEnvironmentOutOfTheFile) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

@@ -2,21 +2,21 @@
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/texture.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/vectors.h"
 
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using test::GltfBuilder;
 using Json = nlohmann::json;
 using testing::HasSubstr;
-
-constexpr float kRounding = 1e-6f;
 
 class GltfMaterials : public testing::Test {
  protected:
@@ -97,12 +97,7 @@ TEST_F(GltfMaterials, ClampsFactorsOutOfRangeWithAWarning) {
 
 TEST_F(GltfMaterials, RefusesEmissionThatIsNoneByName) {
   const auto refusal = [&](const Json& material) -> std::string {
-    try {
-      loadMaterial(material);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return test::refusalOf([&] { loadMaterial(material); });
   };
   const auto strength = [](double s) -> Json {
     return {{"KHR_materials_emissive_strength", {{"emissiveStrength", s}}}};
@@ -216,4 +211,4 @@ TEST_F(GltfMaterials, TangentsOfADegenerateMappingAreValid) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

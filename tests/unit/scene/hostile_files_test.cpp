@@ -4,6 +4,7 @@
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/hostile_budget.h"
+#include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 #include "tests/support/temporary_directory.h"
 
@@ -14,7 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,15 +23,6 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr const char* kSceneKinds[] = {".glb", ".gltf", ".obj"};
-
-std::string refusalOf(const std::function<void()>& load) {
-  try {
-    load();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "was not refused";
-}
 
 TEST(HostileBudget, SeesMemoryThatWasGivenBack) {
   const test::HostileBudget budget("nothing");
@@ -172,4 +164,4 @@ TEST_F(HostileFiles, AFileThatVanishesWhileItsSceneIsReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

@@ -3,6 +3,7 @@
 #include "renderer/base/image_io.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 #include <array>
@@ -10,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
@@ -44,12 +45,7 @@ class LoadLimits : public testing::Test {
   }
 
   std::string refusalOf(const char* file, const cellcut::LoadLimits& limits) const {
-    try {
-      loadScene(folder / file, {.limits = limits});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "was not refused";
+    return test::refusalOf([&] { loadScene(folder / file, {.limits = limits}); });
   }
 
   static constexpr std::array kFiles{"scene.obj", "scene.gltf"};
@@ -90,4 +86,4 @@ TEST(LoadLimitsByDefault, LetEveryPictureThroughThatIsReadAtAll) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

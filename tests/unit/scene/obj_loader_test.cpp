@@ -2,28 +2,23 @@
 #include "renderer/base/image_io.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
+#include "tests/support/vectors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr float kRounding = 1e-6f;
 
 class ObjLoader : public testing::Test {
  protected:
   Scene load(const std::string& text) { return loadScene(test::writeFile(folder / "test.obj", text)); }
   std::string refusalOf(const std::string& text) {
-    try {
-      load(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "was not refused";
+    return test::refusalOf([&] { load(text); });
   }
   test::TemporaryDirectory folder;
 };
@@ -138,4 +133,4 @@ TEST_F(ObjLoader, NonsenseIsRefusedOrEmpty) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

@@ -3,6 +3,7 @@
 #include "renderer/base/error.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/hostile_budget.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 
 #include <sys/stat.h>
@@ -10,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,12 +27,7 @@ class SceneFolderTest : public testing::Test {
     test::writeFile(root / "scene/below/b.bin", "below");
   }
   std::string refusalOf(const std::string& reference) const {
-    try {
-      folder.read(reference);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "was not refused";
+    return test::refusalOf([&] { folder.read(reference); });
   }
   test::TemporaryDirectory root;
   SceneFolder folder{root / "scene/a.gltf"};
@@ -100,4 +96,4 @@ TEST_F(SceneFolderTest, ShowsNoControlCharactersOfAReference) {
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test
