@@ -314,7 +314,7 @@ TEST(ExrReader, RefusesAMillionChannels) {
   std::string list;
   for (int i = 0; i < 1'000'000; ++i) {
     // FLOAT, its linearity and padding, every pixel in x and in y.
-    list += "c" + std::to_string(i) + std::string("\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 17);
+    list += std::string("c") + std::to_string(i) + std::string("\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0", 17);
   }
   list += '\0';
   std::vector<std::byte> file = smallFile();
@@ -331,7 +331,7 @@ TEST(ExrReader, RefusesAMillionChannels) {
 TEST(ExrReader, RefusesAMillionAttributes) {
   std::string attributes;
   for (int i = 0; i < 1'000'000; ++i) {
-    attributes += "a" + std::to_string(i) + std::string("\0int\0\4\0\0\0\7\0\0\0", 13);
+    attributes += std::string("a") + std::to_string(i) + std::string("\0int\0\4\0\0\0\7\0\0\0", 13);
   }
   std::vector<std::byte> file = smallFile();
   const auto bytes = std::as_bytes(std::span(attributes));
