@@ -9,7 +9,6 @@
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
-#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <string>

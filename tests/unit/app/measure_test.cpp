@@ -8,7 +8,6 @@
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,4 @@
 /// Files that lie. Each is a valid file with one thing broken, so that the test fails if that one check goes.
-#include "renderer/base/error.h"
 #include "renderer/scene/gltf_container.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/bytes.h"

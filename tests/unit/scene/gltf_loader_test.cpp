@@ -1,4 +1,3 @@
-#include "renderer/base/error.h"
 #include "renderer/lights/lights.h"
 #include "renderer/scene/load_scene.h"
 #include "tests/support/bytes.h"

@@ -1,4 +1,3 @@
-#include "renderer/base/error.h"
 #include "renderer/base/image_codecs.h"
 #include "renderer/base/image_io.h"
 #include "renderer/scene/load_scene.h"

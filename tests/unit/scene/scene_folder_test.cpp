@@ -1,6 +1,5 @@
 #include "renderer/scene/scene_folder.h"
 
-#include "renderer/base/error.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/hostile_budget.h"
 #include "tests/support/refusal.h"
