@@ -13,12 +13,12 @@
 
 namespace cellcut {
 
-namespace {
-
 struct DestroyContext {
   void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 };
 using ContextOwner = std::unique_ptr<ImGuiContext, DestroyContext>;
+
+namespace {
 
 ContextOwner makeContext(float scale) {
   ContextOwner context(ImGui::CreateContext());

@@ -18,6 +18,13 @@
 #endif
 
 namespace cellcut {
+
+/// What a geometry knows of itself: for coverage, and for triangles that Embree finds too small.
+struct CoveredMesh {
+  const Scene* scene;
+  const Mesh* mesh;
+};
+
 namespace {
 
 #if RTC_VERSION_MAJOR >= 4
@@ -38,12 +45,6 @@ struct CoverageContext {
     rtcInitIntersectContext(&embree);
 #endif
   }
-};
-
-/// What a geometry knows of itself: for coverage, and for triangles that Embree finds too small.
-struct CoveredMesh {
-  const Scene* scene;
-  const Mesh* mesh;
 };
 
 Vec3 originOf(const RTCRay& ray) {
