@@ -17,9 +17,9 @@ constexpr std::size_t kMaxSlots = std::size_t{1} << 22;
 /// Slots looked at before the table counts as full.
 constexpr std::size_t kMaxProbes = 64;
 
-/// A coarse cell is four fine ones wide and has a quarter of the clusters. At depth 5 (16 spp, 320×180) relMSE × seconds is
-/// 0.57 (`hall`) to 0.87 (`street`) of what it is with cells of one kind, and twice or half of either is no better. For
-/// remote points, at depth 1: up to 11 % less time for the same noise.
+/// A coarse cell is four fine ones wide and has a quarter of the clusters. At depth 5 (16 spp, 320×180) relMSE ×
+/// seconds is 0.57 (`hall`) to 0.87 (`street`) of what it is with cells of one kind, and twice or half of either is no
+/// better. For remote points, at depth 1: up to 11 % less time for the same noise.
 constexpr int kCoarse = 4;
 
 /// 21 bits per axis, and one.
@@ -46,8 +46,8 @@ GridGeometry::GridGeometry(const Bounds& box, int resolution) {
   const glm::dvec3 upper = box.empty() ? glm::dvec3(0) : glm::dvec3(box.upper);
   const glm::dvec3 extent = upper - lower;
   const double longest = std::max({extent.x, extent.y, extent.z});
-  // A box without extent is one cell, of the size of its coordinates so that it scales with the scene. The origin alone has
-  // no length to take: it is the middle of its cell, whatever that measures.
+  // A box without extent is one cell, of the size of its coordinates so that it scales with the scene. The origin alone
+  // has no length to take: it is the middle of its cell, whatever that measures.
   const double largest = std::max({std::abs(lower.x), std::abs(lower.y), std::abs(lower.z)});
   size_ = longest > 0 ? longest / resolution : (largest > 0 ? largest : 1);
   inverseSize_ = 1 / size_;
@@ -188,7 +188,8 @@ const Cut* CellTable::fill(Slot& slot, const std::function<Cut()>& make) {
 }
 
 bool CellTable::reserve(std::size_t bytes) {
-  if (this->bytes() >= maxBytes_) return false;
+  // The other half is for cuts: one that finds no room is made anew at every vertex.
+  if (this->bytes() >= maxBytes_ / 2) return false;
   bytes_.fetch_add(bytes, std::memory_order_relaxed);
   return true;
 }

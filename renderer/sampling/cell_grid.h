@@ -5,9 +5,9 @@
 /// border. The first thread that asks for a cell makes it; others that ask meanwhile wait for that one cell; there is
 /// no global lock. What is made is never changed.
 ///
-/// They come in two sizes. Later vertices of paths have coarse cells, for paths scatter into many places, and in each a light
-/// is asked for seldom: fine cells would cost more time in the making and in missed caches than they save noise. Coarse are
-/// also those far from what is mostly seen, towards a horizon, where few pixels share one.
+/// They come in two sizes. Later vertices of paths have coarse cells, for paths scatter into many places, and in each a
+/// light is asked for seldom: fine cells would cost more time in the making and in missed caches than they save noise.
+/// Coarse are also those far from what is mostly seen, towards a horizon, where few pixels share one.
 #pragma once
 
 #include "renderer/sampling/cut.h"
@@ -34,15 +34,15 @@ class GridGeometry {
   /// \param resolution  cells along its longest axis, ≥ 1
   GridGeometry(const Bounds& box, int resolution);
 
-  /// The cell that a light for `p` is chosen from, coarse for indirect and for remote points. Nothing for points beyond 2²⁰
-  /// cells from the box on any axis, and for points that are not finite.
+  /// The cell that a light for `p` is chosen from, coarse for indirect and for remote points. Nothing for points beyond
+  /// 2²⁰ cells from the box on any axis, and for points that are not finite.
   std::optional<CellCoordinates> cellOf(const Vec3& p, bool indirect = false) const;
   /// A sphere around all float points of a cell, rounding included.
   Region region(const CellCoordinates& cell) const;
   /// The cube itself, its corners rounded to floats. Neighbours share their corners exactly.
   Bounds box(const CellCoordinates& cell) const;
-  /// Whether a coarse cell lies farther from the box than a quarter of its longest axis: it has all of its points for itself.
-  /// The others share theirs with fine cells.
+  /// Whether a coarse cell lies farther from the box than a quarter of its longest axis: it has all of its points for
+  /// itself. The others share theirs with fine cells.
   bool isRemote(const CellCoordinates& coarse) const;
   /// Of the fine cells, metres.
   double cellSize() const { return size_; }
@@ -80,7 +80,7 @@ class CellTable {
   /// its own.
   /// \throws what `make` throws, but for std::bad_alloc, which is no room; the cell is not asked for again.
   const Cut* findOrMake(const CellCoordinates& cell, const std::function<Cut()>& make);
-  /// Takes memory of the table's share for something that belongs to a kept cut; false when it is used up.
+  /// Takes memory for something that belongs to a kept cut; false when half of the table's share is used up.
   bool reserve(std::size_t bytes);
   /// Gives back what was reserved and is not used after all.
   void release(std::size_t bytes) { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }

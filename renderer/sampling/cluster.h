@@ -38,8 +38,8 @@ inline float radiusOf(const LightTreeNode& node, const Vec3& centre) {
   return glm::length(glm::max(node.upper() - centre, centre - node.lower()));
 }
 
-/// Whether and how much a node of the local tree can send to a region: estimate J · cos θ' / d̄², θ' the least angle to an
-/// emission axis, d̄ a mean distance. Nothing only if no light of the node can reach any point of the region.
+/// Whether and how much a node of the local tree can send to a region: estimate J · cos θ' / d̄², θ' the least angle to
+/// an emission axis, d̄ a mean distance. Nothing only if no light of the node can reach any point of the region.
 std::optional<Cluster> localCluster(const LightTree& tree, NodeId id, const Region& region);
 /// A node of the distant tree: the same from everywhere.
 Cluster distantCluster(const LightTree& tree, NodeId id);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
 namespace cellcut {
@@ -18,11 +19,12 @@ constexpr std::size_t kFewClusters = kClusterBlock;
 
 }  // namespace
 
-LightTrees::LightTrees(const Lights& lights)
-    : LightTrees(lights, intensityExponent(lights), std::chrono::steady_clock::now()) {}
+LightTrees::LightTrees(const Lights& ofLights)
+    : LightTrees(ofLights, intensityExponent(ofLights), std::chrono::steady_clock::now()) {}
 
-LightTrees::LightTrees(const Lights& lights, int exponentOfUnit, std::chrono::steady_clock::time_point start)
-    : local(localBounds(lights, exponentOfUnit), LightId{0}, false),
+LightTrees::LightTrees(const Lights& ofLights, int exponentOfUnit, std::chrono::steady_clock::time_point start)
+    : lights(ofLights),
+      local(localBounds(lights, exponentOfUnit), LightId{0}, false),
       distant(distantBounds(lights, exponentOfUnit), lights.idOf(LightKind::kDirectional, 0), true),
       firstDistant(lights.idOf(LightKind::kDirectional, 0)),
       exponent(exponentOfUnit),
@@ -35,27 +37,28 @@ TreeStatistics LightTrees::statistics() const {
 
 namespace {
 
-/// The search's state: all clusters seen so far, a heap of those that may still be split, and those that are lights.
+/// The search's state: all clusters seen so far, for each tree a heap of those that may still be split, and those that
+/// are lights.
 class CutSearch {
  public:
   CutSearch(const LightTrees& trees, const Region& region, const CutSettings& settings)
       : trees_(trees), region_(region), settings_(settings) {
     const auto most = 2 * static_cast<std::size_t>(settings.maxSize);
     seen_.reserve(most);
-    open_.reserve(most);
     if (!trees.local.empty()) add(false, trees.local.root());
     if (!trees.distant.empty()) add(true, trees.distant.root());
   }
 
   void refine() {
     const auto maxSize = static_cast<std::size_t>(settings_.maxSize);
-    while (!open_.empty() && open_.size() + leaves_.size() < maxSize &&
-           static_cast<double>(open_.front().priority) > static_cast<double>(settings_.threshold) * sum_) {
-      std::pop_heap(open_.begin(), open_.end());
-      const Cluster parent = seen_[open_.back().cluster];
-      open_.pop_back();
-      sum_ -= static_cast<double>(parent.estimate);
-      const LightTree& tree = parent.distant ? trees_.distant : trees_.local;
+    while (local_.open.size() + distant_.open.size() + leaves_.size() < maxSize) {
+      Side* side = largestShare();
+      if (!side) return;
+      std::pop_heap(side->open.begin(), side->open.end());
+      const Cluster parent = seen_[side->open.back().cluster];
+      side->open.pop_back();
+      side->sum -= static_cast<double>(parent.estimate);
+      const LightTree& tree = trees_.of(parent.distant);
       add(parent.distant, tree.left(parent.node));
       add(parent.distant, tree.right(parent.node));
     }
@@ -63,7 +66,9 @@ class CutSearch {
 
   void take(std::vector<Cluster>& cut) const {
     cut.clear();
-    for (const Candidate& c : open_) cut.push_back(seen_[c.cluster]);
+    for (const Side* side : {&local_, &distant_}) {
+      for (const Candidate& c : side->open) cut.push_back(seen_[c.cluster]);
+    }
     for (const std::uint32_t leaf : leaves_) cut.push_back(seen_[leaf]);
     std::sort(cut.begin(), cut.end(), [](const Cluster& a, const Cluster& b) {
       // Nodes are numbered in depth-first order, and no node of a cut is inside another.
@@ -81,6 +86,26 @@ class CutSearch {
     }
   };
 
+  /// A tree's part of the cut.
+  struct Side {
+    std::vector<Candidate> open;
+    double sum = 0;  ///< of the estimates of all its clusters
+  };
+
+  /// The side whose first candidate may have the largest share of the choice; none if that is below the threshold.
+  Side* largestShare() {
+    const double toDistant = local_.sum + distant_.sum > 0 ? distantShare(local_.sum, distant_.sum) : 0;
+    const auto shareOf = [](const Side& side, double toSide) {
+      if (side.open.empty()) return 0.0;
+      // What is left of a sum by rounding is no reason to stop.
+      return side.sum > 0 ? static_cast<double>(side.open.front().priority) / side.sum * toSide
+                          : std::numeric_limits<double>::infinity();
+    };
+    const double local = shareOf(local_, 1 - toDistant), distant = shareOf(distant_, toDistant);
+    if (!(std::max(local, distant) > static_cast<double>(settings_.threshold))) return nullptr;
+    return local >= distant ? &local_ : &distant_;
+  }
+
   /// The estimate, had the cluster all its light where it is nearest: the mean distance underrates a large box with
   /// bright lamps beside the cell, and it must not stay in one piece for that.
   static float priority(const Cluster& cluster) {
@@ -97,12 +122,13 @@ class CutSearch {
     if (!cluster) return;
     const auto index = static_cast<std::uint32_t>(seen_.size());
     seen_.push_back(*cluster);
-    sum_ += static_cast<double>(cluster->estimate);
+    Side& side = distant ? distant_ : local_;
+    side.sum += static_cast<double>(cluster->estimate);
     if (tree.isLeaf(node)) {
       leaves_.push_back(index);
     } else {
-      open_.push_back({priority(*cluster), index});
-      std::push_heap(open_.begin(), open_.end());
+      side.open.push_back({priority(*cluster), index});
+      std::push_heap(side.open.begin(), side.open.end());
     }
   }
 
@@ -110,9 +136,8 @@ class CutSearch {
   const Region& region_;
   const CutSettings& settings_;
   std::vector<Cluster> seen_;
-  std::vector<Candidate> open_;
+  Side local_, distant_;
   std::vector<std::uint32_t> leaves_;
-  double sum_ = 0;
 };
 
 }  // namespace
@@ -125,8 +150,8 @@ void findCut(const LightTrees& trees, const Region& region, const CutSettings& s
 
 namespace {
 
-/// Mean of max(0, c) over cosines c spread evenly over [cosTheta − spread, cosTheta + spread]: milder than a bound, and 0
-/// only where the largest of them is below the horizon.
+/// Mean of max(0, c) over cosines c spread evenly over [cosTheta − spread, cosTheta + spread]: milder than a bound, and
+/// 0 only where the largest of them is below the horizon.
 double meanClampedCosine(float cosTheta, float spread) {
   const double c = static_cast<double>(cosTheta + kCosineMargin), s = static_cast<double>(spread);
   if (c >= s) return c;
@@ -135,13 +160,22 @@ double meanClampedCosine(float cosTheta, float spread) {
 
 }  // namespace
 
-FarChoice::FarChoice(std::span<const double> weights)
-    : cdf_(weights), sum_(std::accumulate(weights.begin(), weights.end(), 0.0)) {}
+FarChoice::OfTree::OfTree(std::span<const double> weights)
+    : cdf(weights), sum(std::accumulate(weights.begin(), weights.end(), 0.0)) {}
+
+FarChoice::FarChoice(std::span<const double> distantWeights, std::span<const double> localWeights)
+    : distant_(distantWeights), local_(localWeights) {}
 
 Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluster>& clusters) {
   const bool few = clusters.size() <= kFewClusters;
+  // A light that is as large for its distance as a near cell: a long lamp, a window.
+  const auto isLarge = [&](const Cluster& c) {
+    if (c.distant || !trees.local.isLeaf(c.node)) return false;
+    const LightTreeNode& node = trees.local.node(c.node);
+    return radiusOf(node, centreOf(node)) > kNearShare * c.meanDistance;
+  };
   const auto isNear = [&](const Cluster& c) {
-    return !c.distant && (few || region.radius == 0 || region.radius > kNearShare * c.meanDistance);
+    return !c.distant && (few || region.radius == 0 || region.radius > kNearShare * c.meanDistance || isLarge(c));
   };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
   const auto treeOf = [&](const Cluster& c) -> const LightTree& { return c.distant ? trees.distant : trees.local; };
@@ -159,20 +193,30 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
     byEstimate.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(clusters[i].estimate)} << 32 | far.size());
     far.push_back(static_cast<std::uint16_t>(i));
   }
+  distantCount_ = static_cast<std::size_t>(
+      std::count_if(clusters.begin(), clusters.end(), [](const Cluster& c) { return c.distant; }));
   std::sort(byEstimate.begin(), byEstimate.end());
+  std::stable_partition(byEstimate.begin(), byEstimate.end(),
+                        [&](std::uint64_t key) { return clusters[far[static_cast<std::uint16_t>(key)]].distant; });
   farByLeaf_.resize(far.size());
   for (const std::uint64_t key : byEstimate) {
     const auto position = static_cast<std::uint16_t>(key);
     const Cluster& c = clusters[far[position]];
     farByLeaf_[position] = static_cast<std::uint16_t>(far_.size());
-    // The mean of the directions in a cone; all of the weight would otherwise be where the cone's axis happens to point.
+    // The mean of the directions in a cone; all of the weight would otherwise be where the cone's axis happens to
+    // point.
     far_.push_back({c.estimate, c.direction * (0.5f + 0.5f * c.cosThetaU), c.cosThetaU, c.sinThetaU});
     addMember(c);
   }
   near_ = BlockedFloats(clusters.size() - far_.size(), kNearFields);
   for (const Cluster& c : clusters) {
     if (!isNear(c)) continue;
-    addNear(treeOf(c).node(c.node), members_.size() - far_.size());
+    const std::size_t row = members_.size() - far_.size();
+    addNear(treeOf(c).node(c.node), row);
+    if (isLarge(c)) {
+      near_.field(kIntensity)[row] = 0;
+      largeLights_.push_back({static_cast<std::uint32_t>(row), trees.local.light(trees.local.firstLeaf(c.node))});
+    }
     addMember(c);
   }
   if (!far_.empty()) choices_ = std::make_unique<std::atomic<const FarChoice*>[]>(kFacings);
@@ -220,7 +264,8 @@ FarChoice Cut::makeFarChoice(std::size_t facingIndex) const {
     const float cosTheta = glm::dot(c.meanDirection, normals.axis);
     weights.push_back(static_cast<double>(c.estimate) * meanClampedCosine(cosTheta, cosSpread > 0 ? sinSpread : 1.0f));
   }
-  return FarChoice(weights);
+  const std::span<const double> all(weights);
+  return FarChoice(all.first(distantCount_), all.subspan(distantCount_));
 }
 
 Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
@@ -233,8 +278,8 @@ Cut::Kept Cut::keep(std::size_t facingIndex, FarChoice choice) const {
 }
 
 std::optional<std::size_t> Cut::memberOf(std::uint32_t leaf) const {
-  // The last member, in the order of leaves, that does not begin after the leaf. By hand: clang 14 cannot compile the views
-  // of GCC 12.
+  // The last member, in the order of leaves, that does not begin after the leaf. By hand: clang 14 cannot compile the
+  // views of GCC 12.
   const auto find = [&](std::size_t count, const auto& memberAt) -> std::optional<std::size_t> {
     std::size_t after = 0;
     for (std::size_t end = count; after < end;) {
@@ -256,7 +301,8 @@ std::optional<std::size_t> Cut::memberOf(std::uint32_t leaf) const {
 }
 
 std::size_t Cut::bytes() const {
-  std::size_t sum = sizeof(Cut) + far_.capacity() * sizeof(Far) + near_.bytes() + members_.capacity() * sizeof(Member) +
+  std::size_t sum = sizeof(Cut) + far_.capacity() * sizeof(Far) + near_.bytes() +
+                    largeLights_.capacity() * sizeof(LargeLight) + members_.capacity() * sizeof(Member) +
                     farByLeaf_.capacity() * sizeof(std::uint16_t);
   if (!choices_) return sum;
   sum += kFacings * sizeof(choices_[0]);

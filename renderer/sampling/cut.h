@@ -22,46 +22,67 @@ namespace cellcut {
 
 /// The light trees of a scene; either may be empty. Leaves are numbered through: local first, then distant.
 struct LightTrees {
+  /// \param lights  outlive the trees
   explicit LightTrees(const Lights& lights);
 
+  const Lights& lights;
   LightTree local;
   LightTree distant;
   LightId firstDistant;  ///< lights from this number on are distant
   int exponent;          ///< intensities and estimates are in units of 2^exponent W/sr and W/m²
 
+  /// Lights::irradiance in the trees' unit.
+  double irradiance(LightId light, const Vec3& p, const Vec3& n) const {
+    return std::ldexp(lights.irradiance(light, p, n), -exponent);
+  }
   const LightTree& of(bool isDistant) const { return kCanHaveDistantLights && isDistant ? distant : local; }
   TreeStatistics statistics() const;
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }
 
  private:
-  LightTrees(const Lights& lights, int exponentOfUnit, std::chrono::steady_clock::time_point start);
+  LightTrees(const Lights& ofLights, int exponentOfUnit, std::chrono::steady_clock::time_point start);
   double buildSeconds_;
 };
 
+/// Most of a choice that goes to distant lights where local ones can contribute, too. No estimate without visibility
+/// knows of walls: in a closed room nearly all samples would go to the sun outside.
+inline constexpr double kMostDistant = 7.0 / 8;
+
+/// Probability that a choice among both trees goes to a distant light. \pre weights ≥ 0, not both 0
+inline double distantShare(double local, double distant) {
+  const double share = distant / (local + distant);
+  return local > 0 ? std::min(share, kMostDistant) : share;
+}
+
 struct CutSettings {
-  float threshold;  ///< no cluster's estimate is above this share of the sum, if maxSize allows; [0, 1]
+  float threshold;  ///< no cluster's estimate is above this share of the choice, if maxSize allows; [0, 1]
   int maxSize;      ///< most clusters in a cut, ≥ 2
 };
 
-/// Refines first, from the roots, what may have the largest estimate if all its light is where it is nearest. The result is ordered by leaves, local clusters first, and is a
-/// function of its arguments alone.
+/// Refines first, from the roots, what may have the largest estimate if all its light is where it is nearest. The
+/// result is ordered by leaves, local clusters first, and is a function of its arguments alone.
 void findCut(const LightTrees& trees, const Region& region, const CutSettings& settings, std::vector<Cluster>& cut);
 
 /// The far clusters of a cut as surfaces of one facing ask them: a choice that costs about the same for any number of
 /// clusters.
 class FarChoice {
  public:
-  FarChoice() : cdf_({}) {}
-  explicit FarChoice(std::span<const double> weights);
+  FarChoice() : FarChoice({}, {}) {}
+  FarChoice(std::span<const double> distantWeights, std::span<const double> localWeights);
 
-  double sum() const { return sum_; }  ///< of the weights
-  const DiscreteCdf& cdf() const { return cdf_; }
-  std::size_t bytes() const { return sizeof(FarChoice) + cdf_.bytes(); }
+  /// Of one tree's far clusters.
+  struct OfTree {
+    DiscreteCdf cdf;
+    double sum;  ///< of the weights
+    explicit OfTree(std::span<const double> weights);
+  };
+  const OfTree& distant() const { return distant_; }
+  const OfTree& local() const { return local_; }
+  std::size_t bytes() const { return sizeof(FarChoice) + distant_.cdf.bytes() + local_.cdf.bytes(); }
 
  private:
-  DiscreteCdf cdf_;
-  double sum_ = 0;
+  OfTree distant_, local_;
 };
 
 /// Counts from many threads. A copy starts at the same count: a cut is moved only before it is shared.
@@ -77,7 +98,7 @@ class VisitCount {
 };
 
 /// A cut in the form in which it is evaluated. Far clusters have one estimate for all of the region, and one weight for
-/// all of its surfaces of one facing; near ones are evaluated at the point.
+/// all of its surfaces of one facing; near ones are evaluated at the point, and large lights among them exactly.
 class Cut {
  public:
   Cut() = default;
@@ -89,7 +110,14 @@ class Cut {
 
   std::size_t size() const { return members_.size(); }
   std::size_t farCount() const { return far_.size(); }
+  std::size_t distantCount() const { return distantCount_; }  ///< of the far ones
   const BlockedFloats& near() const { return near_; }
+  /// A light so large for its distance that the bounds of its cluster say little. Its row of near() has no weight.
+  struct LargeLight {
+    std::uint32_t near;  ///< its row
+    LightId light;
+  };
+  const std::vector<LargeLight>& largeLights() const { return largeLights_; }
 
   /// A cluster of the cut.
   struct Member {
@@ -99,7 +127,8 @@ class Cut {
     std::uint32_t firstLeaf;  ///< numbered through both trees
     float estimate;           ///< for the region
   };
-  /// Far ones first, by falling estimate; then the near ones in the order of near(), which is that of their leaves.
+  /// Distant ones first, then local far ones, each by falling estimate; then the near ones in the order of near(), which is
+  /// that of their leaves.
   const std::vector<Member>& members() const { return members_; }
   /// Index of the cluster that holds a leaf (numbered through both trees); nothing when the leaf was dropped.
   std::optional<std::size_t> memberOf(std::uint32_t leaf) const;
@@ -133,7 +162,9 @@ class Cut {
   void addNear(const LightTreeNode& node, std::size_t i);
 
   std::vector<Far> far_;
+  std::size_t distantCount_ = 0;
   BlockedFloats near_;
+  std::vector<LargeLight> largeLights_;
   std::vector<Member> members_;
   std::vector<std::uint16_t> farByLeaf_;  ///< members in the order of their leaves
   /// One per facing, made when a surface of that facing asks: a cache of a deterministic function.

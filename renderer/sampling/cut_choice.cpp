@@ -14,9 +14,16 @@ struct NearWeights {
   std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock + 1> blockSum;
   double sum = 0;
 
-  NearWeights(const Cut& cut, const ShadingPoint& point) {
+  NearWeights(const LightTrees& trees, const Cut& cut, const ShadingPoint& point) {
     assert(cut.near().size() <= static_cast<std::size_t>(kMaxCutSize));
     if (cut.near().size() > 0) sum = nearWeights(cut.near(), point.p, point.n, weight.data(), blockSum.data());
+    for (const Cut::LargeLight& large : cut.largeLights()) {
+      const double exact = std::min<double>(trees.irradiance(large.light, point.p, point.n), kMaxWeight);
+      // What is too little for a float is not nothing.
+      weight[large.near] = exact > 0 ? std::max(static_cast<float>(exact), std::numeric_limits<float>::min()) : 0.0f;
+      blockSum[large.near / kClusterBlock] += weight[large.near];
+      sum += static_cast<double>(weight[large.near]);
+    }
   }
 };
 
@@ -47,19 +54,27 @@ std::size_t chooseNear(const NearWeights& w, std::size_t blocks, double& u) {
   return block * kClusterBlock + choose(inBlock, u);
 }
 
-/// The weights of all clusters of a cut at a point.
+/// The weights of all clusters of a cut at a point, as the probabilities that they become.
 struct CutWeights {
   NearWeights near;
-  double sum;
-  double toFar;  ///< probability of the far clusters together
+  double toDistant = 0, toFar = 0, toNear = 0;  ///< probability of each kind; toFar: of local ones; all 0: no choice
 
-  CutWeights(const Cut& cut, const FarChoice& far, const ShadingPoint& point)
-      : near(cut, point), sum(far.sum() + near.sum), toFar(sum > 0 ? far.sum() / sum : 0) {}
-  double farPmf(const FarChoice& far, std::size_t i) const { return far.cdf().pmf(i) * toFar; }
-  double nearPmf(std::size_t i) const { return static_cast<double>(near.weight[i]) / sum; }
-  /// Probability of a member. \pre sum > 0
+  CutWeights(const LightTrees& trees, const Cut& cut, const FarChoice& far, const ShadingPoint& point)
+      : near(trees, cut, point) {
+    const double local = far.local().sum + near.sum, distant = far.distant().sum;
+    if (!(local + distant > 0)) return;
+    toDistant = distantShare(local, distant);
+    if (!(local > 0)) return;
+    toFar = (1 - toDistant) * (far.local().sum / local);
+    toNear = (1 - toDistant) * (near.sum / local);
+  }
+  bool empty() const { return toDistant + toFar + toNear == 0; }
+  double nearPmf(std::size_t i) const { return static_cast<double>(near.weight[i]) / near.sum * toNear; }
+  /// Probability of a member.
   double pmf(const Cut& cut, const FarChoice& far, std::size_t member) const {
-    return member < cut.farCount() ? farPmf(far, member) : nearPmf(member - cut.farCount());
+    if (member < cut.distantCount()) return far.distant().cdf.pmf(member) * toDistant;
+    if (member < cut.farCount()) return far.local().cdf.pmf(member - cut.distantCount()) * toFar;
+    return toNear > 0 ? nearPmf(member - cut.farCount()) : 0.0;
   }
 };
 
@@ -81,11 +96,11 @@ class CutChoice {
         far_(far),
         inCluster_(inCluster),
         point_(point),
-        weights_(cut, far, point),
+        weights_(trees, cut, far, point),
         mirrored_(trees, point) {}
 
   std::optional<SampledLight> sample(double u) const {
-    if (!(weights_.sum > 0)) return std::nullopt;
+    if (weights_.empty()) return std::nullopt;
     const double share = mirrored_.share();
     const bool mirrored = u < share;
     std::optional<SampledLight> light =
@@ -99,7 +114,7 @@ class CutChoice {
 
   float pmf(LightId light) const {
     const Place at = placeOf(light);
-    if (at.leaf == LightTree::kNoLeaf || !(weights_.sum > 0)) return 0;
+    if (at.leaf == LightTree::kNoLeaf || weights_.empty()) return 0;
     return static_cast<float>(mixed(pmfFromCut(at), mirrored_.share() > 0 ? mirrored_.pmf(at.distant, at.leaf) : 0.0));
   }
 
@@ -108,13 +123,19 @@ class CutChoice {
     const CutWeights& w = weights_;
     std::size_t chosen;
     double pmf;
-    if (u < w.toFar) {
-      const DiscreteCdf::Sample sample = far_.cdf().sample(std::min(u / w.toFar, kAlmostOne));
+    const auto chooseFar = [&](const DiscreteCdf& cdf, double share) {
+      const DiscreteCdf::Sample sample = cdf.sample(std::min(u / share, kAlmostOne));
       chosen = sample.index;
       u = sample.rest;
-      pmf = sample.pmf * w.toFar;
+      pmf = sample.pmf * share;
+    };
+    if (u < w.toDistant) {
+      chooseFar(far_.distant().cdf, w.toDistant);
+    } else if (u -= w.toDistant; u < w.toFar || w.toNear == 0) {
+      chooseFar(far_.local().cdf, w.toFar);
+      chosen += cut_.distantCount();
     } else {
-      u = std::min((u - w.toFar) / (w.near.sum / w.sum), kAlmostOne);
+      u = std::min((u - w.toFar) / w.toNear, kAlmostOne);
       const std::size_t i = chooseNear(w.near, cut_.near().blocks(), u);
       chosen = cut_.farCount() + i;
       pmf = w.nearPmf(i);
@@ -183,10 +204,10 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, In
   return CutChoice(trees, cut, far, inCluster, point).pmf(light);
 }
 
-std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point) {
+std::vector<double> clusterPmfs(const LightTrees& trees, const Cut& cut, const FarChoice& far,
+                                const ShadingPoint& point) {
   std::vector<double> pmfs(cut.size());
-  const CutWeights w(cut, far, point);
-  if (!(w.sum > 0)) return pmfs;
+  const CutWeights w(trees, cut, far, point);
   for (std::size_t i = 0; i < pmfs.size(); ++i) pmfs[i] = w.pmf(cut, far, i);
   return pmfs;
 }

@@ -227,11 +227,11 @@ TreesDescent::TreesDescent(const LightTrees& trees, const NodeImportance& import
 }
 
 std::optional<SampledLight> TreesDescent::sample(double u) const {
-  const double toLocal = local_ / sum();
-  const bool distant = !(u < toLocal);
-  const double share = distant ? distant_ / sum() : toLocal;
+  const double toDistant = distantShare(local_, distant_);
+  const bool distant = u < toDistant;
+  const double share = distant ? toDistant : 1 - toDistant;
   const LightTree& tree = trees_.of(distant);
-  const double rest = std::min((distant ? u - toLocal : u) / share, kAlmostOne);
+  const double rest = std::min((distant ? u : u - toDistant) / share, kAlmostOne);
   const std::optional<SampledLeaf> leaf = sampleByDescent(tree, distant, tree.root(), importance_, rest);
   if (!leaf) return std::nullopt;
   return sampledLight(tree.light(leaf->leaf), share * leaf->pmf);
@@ -239,7 +239,8 @@ std::optional<SampledLight> TreesDescent::sample(double u) const {
 
 double TreesDescent::pmf(bool distant, std::uint32_t leaf) const {
   const LightTree& tree = trees_.of(distant);
-  return (distant ? distant_ : local_) / sum() * pmfByDescent(tree, distant, tree.root(), importance_, leaf);
+  const double toDistant = distantShare(local_, distant_);
+  return (distant ? toDistant : 1 - toDistant) * pmfByDescent(tree, distant, tree.root(), importance_, leaf);
 }
 
 }  // namespace cellcut

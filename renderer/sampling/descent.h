@@ -1,9 +1,9 @@
 /// \file descent.h
 /// One light by a random walk down a light tree in proportion to an importance, and its exact probability.
 ///
-/// Source: Conty Estevez and Kulla 2018, section 5, without their splitting. A step goes down two levels: the up to four
-/// nodes there are weighed together, with SIMD, and against each other, which takes less time and is a better choice than
-/// child by child.
+/// Source: Conty Estevez and Kulla 2018, section 5, without their splitting. A step goes down two levels: the up to
+/// four nodes there are weighed together, with SIMD, and against each other, which takes less time and is a better
+/// choice than child by child.
 #pragma once
 
 #include "renderer/base/rng.h"
@@ -17,8 +17,8 @@ namespace cellcut {
 struct NodeImportance {
   Vec3 p;  ///< metres
   Vec3 n;  ///< unit
-  /// A GGX reflection: × π D(h) of the half vector h of wo and the direction to the node, with a lobe that is widened by
-  /// what the node's extent turns h.
+  /// A GGX reflection: × π D(h) of the half vector h of wo and the direction to the node, with a lobe that is widened
+  /// by what the node's extent turns h.
   struct Lobe {
     Vec3 wo;  ///< unit, world space
     float alpha2;

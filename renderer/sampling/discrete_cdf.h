@@ -1,9 +1,9 @@
 /// \file discrete_cdf.h
 /// Inverse transform sampling of a discrete distribution of a few thousand elements.
 ///
-/// Against an alias table: a third of the memory, close numbers choose close elements, as well-distributed numbers need it,
-/// and when heavy elements come first a few cache lines serve most samples. The running sums are integers, so that the
-/// probability that is reported is exactly that of being drawn.
+/// Against an alias table: a third of the memory, close numbers choose close elements, as well-distributed numbers need
+/// it, and when heavy elements come first a few cache lines serve most samples. The running sums are integers, so that
+/// the probability that is reported is exactly that of being drawn.
 #pragma once
 
 #include <cstddef>

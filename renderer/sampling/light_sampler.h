@@ -37,8 +37,8 @@ struct SampledLight {
   float pmf;  ///< P(light | point), > 0
 };
 
-/// A light that was drawn with a probability ≥ 0. Nothing where no float holds it (below 10⁻⁴⁵): pmf() calls that 0, and
-/// nobody can divide by it.
+/// A light that was drawn with a probability ≥ 0. Nothing where no float holds it (below 10⁻⁴⁵): pmf() calls that 0,
+/// and nobody can divide by it.
 inline std::optional<SampledLight> sampledLight(LightId light, double pmf) {
   const auto rounded = static_cast<float>(pmf);
   return rounded > 0 ? std::optional(SampledLight{light, rounded}) : std::nullopt;
@@ -57,8 +57,8 @@ struct CutStrategy {
 class LightSampler {
  public:
   virtual ~LightSampler() = default;
-  /// Nothing when no light can reach the point, and for a descent that ends where none of the lights below can; Σ pmf over
-  /// all lights is 1 less the probability of nothing.
+  /// Nothing when no light can reach the point, and for a descent that ends where none of the lights below can; Σ pmf
+  /// over all lights is 1 less the probability of nothing.
   /// \param u  uniform in [0, 1)
   virtual std::optional<SampledLight> sample(const ShadingPoint& point, double u) const = 0;
   /// The probability that sample() returns `light` at one and the same point, lobe and all.

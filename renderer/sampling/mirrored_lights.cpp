@@ -10,12 +10,14 @@ namespace {
 constexpr float kLeastPeak = 1;
 
 /// Sharper lobes are not followed. BSDF samples find what they mirror of lights with area, and the highlight of a light
-/// without is so small beside a pixel that it is a rare bright sample however the light is chosen. Chosen often, it is in
-/// a picture sooner: lamps in the water of `kinds`, α = 0.0064, gave one of three pictures of 32 spp 400 times the relMSE.
+/// without is so small beside a pixel that it is a rare bright sample however the light is chosen. Chosen often, it is
+/// in a picture sooner: lamps in the water of `kinds`, α = 0.0064, gave one of three pictures of 32 spp 400 times the
+/// relMSE.
 constexpr float kSharpestAlpha = 0.012f;
 
-/// Most of the samples that follow the mirror. With 2/3 street and hall have 15 % less relMSE, but the variance of what a
-/// surface scatters evenly, which is most of the light of a glazed one, may be three times that of the cut and not two.
+/// Most of the samples that follow the mirror. With 2/3 street and hall have 15 % less relMSE, but the variance of what
+/// a surface scatters evenly, which is most of the light of a glazed one, may be three times that of the cut and not
+/// two.
 constexpr double kMostShare = 0.5;
 
 /// What a cluster's extent adds to α²: this × (1 − cos θu), the mean square by which directions within θu turn the half

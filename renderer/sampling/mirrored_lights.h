@@ -1,10 +1,10 @@
 /// \file mirrored_lights.h
 /// The choice of a light by how a glossy surface mirrors it.
 ///
-/// A cut weighs lights as a surface sees them that scatters evenly. A light that a glossy surface mirrors sends a hundred
-/// times of that: no BSDF sample finds a point light, few find a small lamp, and a single sample of one that was thought
-/// faint is a bright pixel. So where a surface is glossy, a share of the samples walks down the trees with D(h) in its
-/// importance, and the probability of a light is that of both choices together.
+/// A cut weighs lights as a surface sees them that scatters evenly. A light that a glossy surface mirrors sends a
+/// hundred times of that: no BSDF sample finds a point light, few find a small lamp, and a single sample of one that
+/// was thought faint is a bright pixel. So where a surface is glossy, a share of the samples walks down the trees with
+/// D(h) in its importance, and the probability of a light is that of both choices together.
 #pragma once
 
 #include "renderer/sampling/descent.h"

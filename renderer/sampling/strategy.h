@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace cellcut {
@@ -34,13 +33,6 @@ constexpr std::string_view nameOf(Strategy strategy) {
 /// Whether SamplerSettings matter to it.
 constexpr bool hasCuts(Strategy strategy) {
   return strategy == Strategy::kCellCut || strategy == Strategy::kPointCut;
-}
-
-constexpr std::optional<Strategy> strategyFromName(std::string_view name) {
-  for (const StrategyName& s : kStrategies) {
-    if (s.name == name) return s.strategy;
-  }
-  return std::nullopt;
 }
 
 }  // namespace cellcut

@@ -24,6 +24,7 @@ std::vector<Vec3> pilotVertices(const Scene& scene, const Accel& accel, const Ca
         const std::optional<Hit> hit = accel.intersect(ray, static_cast<std::uint32_t>(numbers.extra));
         if (!hit) break;
         const SurfacePoint surface = surfaceAt(scene, *hit);
+        if (scene.materials[indexOf(surface.at.mesh->material)].unlit) break;  // no light is asked for there
         vertices.push_back(surface.p);
         const Vec3 normal = glm::dot(surface.normal, ray.direction) < 0 ? surface.normal : -surface.normal;
         const Vec3 direction = Frame(normal).toWorld(cosineHemisphere({numbers[0], numbers[1]}));

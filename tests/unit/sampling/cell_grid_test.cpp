@@ -51,8 +51,8 @@ TEST(GridGeometry, IndirectAndRemotePointsHaveCoarseCells) {
   EXPECT_EQ(cutSettingsOf({.maxCut = 2}, {0, 0, 0, true}).maxSize, 2);
 }
 
-// Points have fine or coarse cells by where they are, and never both: no light is chosen from a coarse cell among the fine
-// but after a bounce.
+// Points have fine or coarse cells by where they are, and never both: no light is chosen from a coarse cell among the
+// fine but after a bounce.
 TEST(GridGeometry, RemoteCellsHaveNoFineOnesInThem) {
   Rng rng(5);
   for (const int resolution : {1, 2, 3, 5, 6, 7, 10, 16, 20}) {
@@ -112,6 +112,13 @@ TEST(CellTable, GivesReservedMemoryBack) {
   EXPECT_EQ(table.bytes(), before + 5000);
   table.release(5000);
   EXPECT_EQ(table.bytes(), before);
+}
+
+TEST(CellTable, KeepsHalfOfItsMemoryForCuts) {
+  CellTable table(1 << 20);
+  while (table.reserve(5000)) continue;
+  EXPECT_LE(table.bytes(), (1u << 19) + 5000);
+  EXPECT_NE(table.findOrMake({1, 2, 3}, [] { return Cut(); }), nullptr);
 }
 
 TEST(CellTable, DoesNotKeepOthersWaitingForACellThatCouldNotBeMade) {

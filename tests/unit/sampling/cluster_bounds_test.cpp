@@ -217,8 +217,8 @@ TEST(Cut, FarClustersAroundTheCellWeighTheSameForAllFacings) {
   const Region region{Vec3(0), 1};
   const Cut cut(trees, region, {distantCluster(trees.distant, trees.distant.root())});
   ASSERT_EQ(cut.farCount(), 1u);
-  const double up = cut.makeFarChoice(facingOf(Vec3(0, 0, 1))).sum();
-  for (std::size_t i = 0; i < kFacings; ++i) EXPECT_NEAR(cut.makeFarChoice(i).sum() / up, 1, 1e-4);
+  const double up = cut.makeFarChoice(facingOf(Vec3(0, 0, 1))).distant().sum;
+  for (std::size_t i = 0; i < kFacings; ++i) EXPECT_NEAR(cut.makeFarChoice(i).distant().sum / up, 1, 1e-4);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "renderer/sampling/descent.h"
 #include "renderer/sampling/facing.h"
 #include "renderer/trace/renderer.h"
+#include "tests/support/images.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 #include "tests/support/vectors.h"
@@ -184,7 +185,9 @@ TEST(Cut, FarWeightIsZeroOnlyWhereNoLightIsAboveTheHorizon) {
     const FarChoice far = cut.makeFarChoice(facingOf(n));
     const Vec3 p = region.centre + region.radius * randomUnit(rng);
     for (std::size_t k = 0; k < cut.farCount(); ++k) {
-      if (far.cdf().pmf(k) > 0) continue;
+      const double pmf =
+          k < cut.distantCount() ? far.distant().cdf.pmf(k) : far.local().cdf.pmf(k - cut.distantCount());
+      if (pmf > 0) continue;
       ++zeros;
       const Cut::Member& m = cut.members()[k];
       EXPECT_EQ(importanceOf(m.distant ? many.trees.distant : many.trees.local, m.distant, m.node, {p, n}), 0);
@@ -193,7 +196,75 @@ TEST(Cut, FarWeightIsZeroOnlyWhereNoLightIsAboveTheHorizon) {
   EXPECT_GT(zeros, 1000u);
 }
 
-// The proofs of all strategies have fewer lights than a cut has clusters, but for one: here clusters hold about twenty-five.
+/// A hundred lamps of 1 W/sr in a room, and a sun.
+struct SunnyRoom {
+  explicit SunnyRoom(float sun) {
+    Rng rng(6);
+    for (int i = 0; i < 100; ++i) scene.pointLights.push_back({2.0f * randomUnit(rng), Vec3(1)});
+    scene.directionalLights.push_back({{0, 0, -1}, Vec3(sun)});
+    finish(scene);
+  }
+  Scene scene;
+};
+
+TEST(Cut, LampsKeepAnEighthOfTheChoiceHoweverBrightTheSunIs) {
+  for (const float sun : {1e6f, 1e12f}) {
+    const SunnyRoom room(sun);
+    const Lights lights(room.scene);
+    const LightTrees trees(lights);
+    const ShadingPoint point{Vec3(0.1f), {0, 0, 1}};
+    const Region region{Vec3(0), 0.2f};
+    const Cut cut = makeCut(trees, region, {0.001f, 1024});
+    const FarChoice far = cut.makeFarChoice(facingOf(point.n));
+    const TreesDescent descent(trees, {point.p, point.n});
+    double fromCut = 0;
+    for (std::uint32_t i = 0; i < 100; ++i)
+      fromCut += static_cast<double>(pmfInCut(trees, cut, far, InCluster::kIntensity, point, LightId{i}));
+    EXPECT_NEAR(fromCut, 0.125, 1e-6) << sun;
+    EXPECT_EQ(descent.pmf(true, 0), 0.875) << sun;
+  }
+}
+
+TEST(Cut, ASunDoesNotKeepLampsFromBeingSplit) {
+  const auto sizeOf = [](float sun) {
+    const SunnyRoom room(sun);
+    const Lights lights(room.scene);
+    return makeCut(LightTrees(lights), {Vec3(0), 0.2f}, {0.02f, 1024}).size();
+  };
+  // With an eighth of the choice a lamp's share is above the threshold when its share of the lamps is eight times that.
+  EXPECT_GT(sizeOf(1e6f), 5u);
+  EXPECT_EQ(sizeOf(1e6f), sizeOf(1e12f));
+  EXPECT_GT(sizeOf(1e-3f), sizeOf(1e6f));
+}
+
+TEST(Cut, LightsThatAreLargeForTheirDistanceAreWeighedExactly) {
+  Scene scene;
+  const MaterialId lamp = addMaterial(scene, emitter(Vec3(1), true));
+  addTriangle(scene, lamp, {-10, 0, 2}, {40, 0, 2}, {40, 0.1f, 2});
+  addTriangle(scene, lamp, {-2, 1, -1}, {2, 1, -1}, {2, 1, 2});
+  addTriangle(scene, lamp, {3, 3, 3}, {3.01f, 3, 3}, {3.01f, 3.01f, 3});
+  finish(scene);
+  const Lights lights(scene);
+  const LightTrees trees(lights);
+  const Cut cut = makeCut(trees, {Vec3(0), 0.1f}, {0, 64});
+  ASSERT_EQ(cut.largeLights().size(), 2u);
+  Rng rng(8);
+  for (int i = 0; i < 50; ++i) {
+    const ShadingPoint point{0.1f * randomUnit(rng), randomUnit(rng)};
+    const FarChoice far = cut.makeFarChoice(facingOf(point.n));
+    const auto pmfOf = [&](std::uint32_t light) {
+      return static_cast<double>(pmfInCut(trees, cut, far, InCluster::kIntensity, point, LightId{light}));
+    };
+    const double first = lights.irradiance(LightId{0}, point.p, point.n);
+    const double second = lights.irradiance(LightId{1}, point.p, point.n);
+    // Floats of a sum of three.
+    EXPECT_NEAR(pmfOf(0) * second, pmfOf(1) * first, 1e-6 * (first + second)) << i;
+    EXPECT_EQ(pmfOf(0) > 0, first > 0) << i;
+  }
+}
+
+// The proofs of all strategies have fewer lights than a cut has clusters, but for one: here clusters hold about
+// twenty-five.
 TEST(Cut, ChoosesInsideClustersWithTheProbabilityThatItReports) {
   const ManyLights many(LightMix::kPoint);
   const Region region{many.scene.pointLights[0].position, 0.6f};
@@ -236,14 +307,12 @@ TEST(CellCut, PictureIsTheSameWithoutMemoryForCells) {
   RenderSettings settings;
   settings.width = settings.height = 24;
   settings.maxDepth = 3;
-  const std::atomic<bool> never{false};
   Renderer kept(scene, settings);
   settings.sampler.cellMemory = 0;
   Renderer forgotten(scene, settings);
-  for (Renderer* renderer : {&kept, &forgotten}) renderer->renderPass(never);
+  const ImageRgb a = renderPasses(kept, 1), b = renderPasses(forgotten, 1);
   EXPECT_GT(kept.samplerStatistics().grid->made(), 0u);
   EXPECT_EQ(forgotten.samplerStatistics().grid->made(), 0u);
-  const ImageRgb a = kept.film().mean(), b = forgotten.film().mean();
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i], b[i]);
 }
 
