@@ -77,11 +77,26 @@ void filterCoverage(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-/// Where rays begin. Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin, where
-/// there is no rounding error to be moved past, meets its own triangle at exactly 0.
+/// Where rays begin. Not 0: Embree's interval is closed, and a ray that starts on an axis plane through the origin,
+/// where there is no rounding error to be moved past, meets its own triangle at exactly 0.
 constexpr float kNearest = std::numeric_limits<float>::min();
 
-RTCRay embreeRay(const Ray& ray) {
+/// Embree's largest coordinate: it aborts on rays beyond, and has no triangles there.
+constexpr float kLargest = 1.8e18f;
+
+bool isInReach(const Vec3& v) {
+  return maxComponent(glm::abs(v)) < kLargest;
+}
+
+/// A ray that meets nothing; tMax is not negative, for that is how Embree says that one was occluded.
+constexpr Ray kNoRay{Vec3(0), Vec3(0, 0, 1), 0};
+
+const Ray& reachable(const Ray& ray) {
+  return isInReach(ray.origin) && isInReach(ray.direction) ? ray : kNoRay;
+}
+
+RTCRay embreeRay(const Ray& asked) {
+  const Ray& ray = reachable(asked);
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
@@ -199,7 +214,7 @@ void Accel::intersect(std::span<const Ray> rays, std::span<const std::uint32_t> 
   for (std::size_t i = 0; i < kRayPacket; ++i) {
     // A lane without a ray has an empty one: Embree 3 without eight lanes of its own looks at nothing else.
     const bool used = i < rays.size();
-    const Ray ray = used ? rays[i] : Ray{Vec3(0), Vec3(0, 0, 1), -kInfinity};
+    const Ray& ray = used ? reachable(rays[i]) : kNoRay;
     valid[i] = used ? -1 : 0;
     query.ray.org_x[i] = ray.origin.x, query.ray.org_y[i] = ray.origin.y, query.ray.org_z[i] = ray.origin.z;
     query.ray.dir_x[i] = ray.direction.x, query.ray.dir_y[i] = ray.direction.y;
@@ -232,7 +247,10 @@ void Accel::intersect(std::span<const Ray> rays, std::span<const std::uint32_t> 
 }
 
 bool Accel::occluded(const Ray& ray, std::uint32_t seed) const {
-  RTCRay query = embreeRay(ray);
+  // A shadow ray's direction is as long as the way to the light.
+  constexpr float kShorter = 0x1p-70f;
+  const bool isLong = !isInReach(ray.direction);
+  RTCRay query = embreeRay(isLong ? Ray{ray.origin, ray.direction * kShorter, ray.tMax / kShorter} : ray);
   CoverageContext context(&seed);
 #if RTC_VERSION_MAJOR >= 4
   RTCOccludedArguments arguments;

@@ -32,8 +32,8 @@ class Accel {
   /// Nearest hit with 0 < t < tMax. Thread-safe.
   /// \param seed  decides where partly covered surfaces (alpha) let the ray through: each with its own probability
   std::optional<Hit> intersect(const Ray& ray, std::uint32_t seed) const;
-  /// The same for rays that start and point about alike, as those of neighbouring pixels do: together they take a quarter
-  /// of the time. Where surfaces coincide a packet may meet another of them than a ray alone does.
+  /// The same for rays that start and point about alike, as those of neighbouring pixels do: together they take a
+  /// quarter of the time. Where surfaces coincide a packet may meet another of them than a ray alone does.
   /// \param hits  out; as many as rays and seeds, at most kRayPacket
   void intersect(std::span<const Ray> rays, std::span<const std::uint32_t> seeds,
                  std::span<std::optional<Hit>> hits) const;

@@ -6,6 +6,7 @@
 #include "tests/support/depth.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/vectors.h"
 
 #include <array>
 
@@ -14,11 +15,6 @@
 
 namespace cellcut::test {
 namespace {
-
-Vec3 unitVector(Rng& rng) {
-  const float z = rng.uniform(-1, 1), azimuth = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
 
 TEST(Accel, FindsTheNearestTriangle) {
   Scene scene;
@@ -34,6 +30,24 @@ TEST(Accel, FindsTheNearestTriangle) {
   EXPECT_FALSE(accel.intersect({Vec3(0), {0, 0, 1}, 1.9f}, 0));
   EXPECT_TRUE(accel.occluded({Vec3(0), {0, 0, 1}, 2.1f}, 0));
   EXPECT_FALSE(accel.occluded({Vec3(0), {0, 0, 1}, 1.9f}, 0));
+}
+
+TEST(Accel, RaysBeyondEmbreesReachMeetNothingAndLongShadowRaysAreTraced) {
+  Scene scene;
+  addQuad(scene, addMaterial(scene, lambertian(Vec3(0.5f))), {-1e6f, -1e6f, 10}, {2e6f, 0, 0}, {0, 2e6f, 0});
+  const Accel accel(scene);
+  for (const float far : {1.9e18f, 1e19f, 3e38f}) {
+    const Ray from{{0, 0, -far}, {0, 0, 1}};
+    EXPECT_FALSE(accel.intersect(from, 0)) << far;
+    EXPECT_FALSE(accel.occluded(from, 0)) << far;
+    std::array<std::optional<Hit>, 2> hits;
+    const std::array<std::uint32_t, 2> seeds{};
+    accel.intersect(std::array{from, Ray{Vec3(0), {0, 0, 1}}}, seeds, hits);
+    EXPECT_FALSE(hits[0]) << far;
+    EXPECT_TRUE(hits[1]) << far;
+    EXPECT_TRUE(accel.occluded(shadowRay(Vec3(0), {0, 0, far}), 0)) << far;
+    EXPECT_FALSE(accel.occluded(shadowRay(Vec3(0), {0, 0, -far}), 0)) << far;
+  }
 }
 
 TEST(Accel, KnowsWhereAMinuteTriangleIsHit) {
@@ -73,7 +87,7 @@ TEST(Accel, APacketFindsWhatItsRaysFindOneByOne) {
     const std::array materials{addMaterial(scene, lambertian(Vec3(1))), addMaterial(scene, glass)};
     for (std::size_t i = 0; i < 60; ++i) {
       const Vec3 at = size * Vec3(rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(2, 8));
-      addQuad(scene, materials[i % 2], at, size * 2.0f * unitVector(rng), size * 2.0f * unitVector(rng));
+      addQuad(scene, materials[i % 2], at, size * 2.0f * randomUnit(rng), size * 2.0f * randomUnit(rng));
     }
     const Accel accel(scene);
     std::size_t found = 0;
@@ -84,7 +98,7 @@ TEST(Accel, APacketFindsWhatItsRaysFindOneByOne) {
       std::array<std::uint32_t, kRayPacket> seeds;
       std::array<std::optional<Hit>, kRayPacket> hits;
       for (std::size_t i = 0; i < count; ++i) {
-        rays[i] = {Vec3(0), glm::normalize(middle + 0.01f * unitVector(rng))};
+        rays[i] = {Vec3(0), glm::normalize(middle + 0.01f * randomUnit(rng))};
         seeds[i] = 100 * packet + static_cast<std::uint32_t>(i);
       }
       accel.intersect(std::span(rays).first(count), std::span(seeds).first(count), std::span(hits).first(count));
@@ -125,7 +139,7 @@ TEST(Accel, ARayDoesNotMeetThePlaneItStartsOn) {
       Rng rng(1);
       for (int i = 0; i < 1000; ++i) {
         const Vec3 p = rng.uniform(-0.4f, 0.4f) * u + rng.uniform(-0.4f, 0.4f) * v;
-        const Vec3 direction = unitVector(rng);
+        const Vec3 direction = randomUnit(rng);
         const Vec3 origin =
             offsetRayOrigin(p, triangleError(-0.5f * (u + v), 0.5f * (u - v), 0.5f * (u + v)), n, direction);
         ASSERT_FALSE(accel.occluded({origin, direction}, 0)) << "axis " << axis << ", size " << size;
@@ -191,7 +205,7 @@ TEST(Accel, NothingLeaksThroughSharedEdges) {
       const Vec3 a = mesh.positions[t[edge]], b = mesh.positions[t[(edge + 1) % 3]];
       const bool atVertex = i % 8 == 0;
       const float s = atVertex ? 0.0f : rng.uniform();
-      const Vec3 origin = 0.3f * scale * unitVector(rng);
+      const Vec3 origin = 0.3f * scale * randomUnit(rng);
       if (!accel.intersect({origin, glm::normalize((1 - s) * a + s * b - origin)}, 0))
         ++(atVertex ? leaksAtVertices : leaks);
     }
@@ -224,7 +238,7 @@ TEST_P(RayOrigins, NeitherMeetTheirOwnSurfaceNorLeaveTheRoom) {
   Rng rng(3);
   std::size_t selfHits = 0, escapes = 0, outside = 0, total = 0;
   const std::size_t rays = sampleShare(byDepth(100'000, 1'500'000));
-  Ray ray{at + scale * Vec3(0.7f, 0.6f, 0.5f), unitVector(rng)};
+  Ray ray{at + scale * Vec3(0.7f, 0.6f, 0.5f), randomUnit(rng)};
   std::optional<Hit> from;
   for (std::size_t i = 0; i < rays; ++i) {
     const auto hit = accel.intersect(ray, 0);
@@ -233,7 +247,7 @@ TEST_P(RayOrigins, NeitherMeetTheirOwnSurfaceNorLeaveTheRoom) {
       const bool strictlyInside =
           glm::all(glm::lessThan(lower, ray.origin)) && glm::all(glm::lessThan(ray.origin, upper));
       ++(strictlyInside ? escapes : outside);
-      ray = {at + scale * Vec3(0.7f, 0.6f, 0.5f), unitVector(rng)};
+      ray = {at + scale * Vec3(0.7f, 0.6f, 0.5f), randomUnit(rng)};
       from.reset();
       continue;
     }
