@@ -2,8 +2,8 @@
 /// What a scene may have and many do not. Every program can render all of it; bench_capabilities compiles the path of a
 /// sample once more without one of them (CELLCUT_WITHOUT), to measure what a scene pays for what it lacks.
 ///
-/// The constants stand beside the question whether the scene has it. They have internal linkage: a program links sources
-/// that answer differently, and on a scene that lacks it they do the same.
+/// The constants stand beside the question whether the scene has it. They have internal linkage: a program links
+/// sources that answer differently, and on a scene that lacks it they do the same.
 #pragma once
 
 #include <cstdint>

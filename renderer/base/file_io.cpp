@@ -1,7 +1,8 @@
-// readFile and writeFileAtomically of image_io.h.
+// readFile, writtenFile, writeFileAtomically and lowerExtension of image_io.h.
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
@@ -31,8 +32,8 @@ class TemporaryFile {
   explicit TemporaryFile(const fs::path& target) : target_(target) {
     constexpr int kAttempts = 100;  // names are taken only by leftovers of killed runs and by other threads
     for (int i = 0; i < kAttempts && !file_; ++i) {
-      path_ = target;
-      path_ += std::string(".").append(std::to_string(::getpid())).append("-").append(std::to_string(i)).append(".tmp");
+      // Not the target's name with more behind it: that may be as long as names can be.
+      path_ = target.parent_path() / (".cellcut-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp");
       file_ = std::fopen(path_.c_str(), "wbx");
       if (!file_ && errno != EEXIST) break;
     }
@@ -72,8 +73,8 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-/// A file that is opened first and looked at then, so that it is the same one all the while, whatever its name stands for
-/// by now.
+/// A file that is opened first and looked at then, so that it is the same one all the while, whatever its name stands
+/// for by now.
 class OpenFile {
  public:
   /// \throws InputError
@@ -131,6 +132,21 @@ class OpenFile {
 
 }  // namespace
 
+fs::path writtenFile(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);  // of what links lead to
+  if (status.type() == fs::file_type::none) refuseWriting(file, error.value());
+  if (fs::is_directory(status)) throw InputError(file.string(), "is a folder; name a file in it");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw InputError(file.string(), "is no regular file but a pipe or a device, which would be replaced; name a file");
+  }
+  fs::path written = file;
+  while (fs::is_symlink(fs::symlink_status(written, error))) {
+    written = written.parent_path() / fs::read_symlink(written, error);
+  }
+  return written;
+}
+
 void writeFileAtomically(const fs::path& file, std::span<const std::byte> bytes) {
   TemporaryFile temporary(file);
   temporary.write(bytes);
@@ -143,6 +159,13 @@ std::vector<std::byte> readFile(const fs::path& file, std::uintmax_t maxBytes) {
   std::vector<std::byte> bytes(size);
   open.read(bytes);
   return bytes;
+}
+
+std::string lowerExtension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
 }
 
 }  // namespace cellcut

@@ -52,4 +52,11 @@ class Image {
 
 using ImageRgb = Image<Vec3>;  ///< linear Rec. 709, 32-bit float
 
+/// Mean over pixels and channels. \pre not empty
+inline double meanOfChannels(const ImageRgb& image) {
+  double sum = 0;
+  for (const Vec3& p : image) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
+  return sum / static_cast<double>(image.size());
+}
+
 }  // namespace cellcut

@@ -74,12 +74,19 @@ void writePfm(const std::filesystem::path& file, const ImageRgb& image);
 /// Writes toneMap(exposure · c) of tone_map.h, 8 bits.
 void writePng(const std::filesystem::path& file, const ImageRgb& image, float exposure = 1);
 
-/// Writes `bytes` beside `file` and renames.
+/// The file that a person means by a name: where its symbolic links lead, whether anything is there yet or not.
+/// \throws InputError if something is there and no regular file, or cannot be looked at
+std::filesystem::path writtenFile(const std::filesystem::path& file);
+
+/// Writes `bytes` beside `file` and renames: a link of that name is replaced; writtenFile() follows it.
 /// \throws InputError if that fails; the old file then stays.
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 /// Whole file in memory.
 /// \throws InputError if it is no regular file, cannot be read, or is larger than `maxBytes`.
 std::vector<std::byte> readFile(const std::filesystem::path& file, std::uintmax_t maxBytes);
+
+/// The extension with its dot, A to Z as a to z: ".exr" of "a.EXR".
+std::string lowerExtension(const std::filesystem::path& file);
 
 }  // namespace cellcut

@@ -85,6 +85,10 @@ struct Bounds {
     lower = glm::min(lower, b.lower);
     upper = glm::max(upper, b.upper);
   }
+  /// Bit k says whether coordinate k is the upper one. \pre bits < 8
+  Vec3 corner(unsigned bits) const {
+    return {(bits & 1 ? upper : lower).x, (bits & 2 ? upper : lower).y, (bits & 4 ? upper : lower).z};
+  }
   Vec3 centre() const { return 0.5f * lower + 0.5f * upper; }
   /// Half of the diagonal: the radius of the smallest sphere around centre() that holds the box; 0 when empty.
   float radius() const { return empty() ? 0.0f : glm::length(0.5f * upper - 0.5f * lower); }

@@ -5,12 +5,19 @@
 #include "renderer/base/rng.h"
 #include "renderer/base/sobol.h"
 
+#include <string_view>
+
 namespace cellcut {
 
 enum class PixelSampling : std::uint8_t {
   kSobol,        ///< Owen-scrambled Sobol' points over the passes of a pixel
   kIndependent,  ///< independent numbers, for statistics
 };
+
+/// On the command line and in reports.
+constexpr std::string_view nameOf(PixelSampling sampling) {
+  return sampling == PixelSampling::kSobol ? "sobol" : "independent";
+}
 
 /// Four uniform numbers that are well distributed together over the passes of a pixel.
 struct Sample4 {

@@ -22,8 +22,7 @@ inline Vec3 triangleError(const Vec3& v0, const Vec3& v1, const Vec3& v2) {
 
 /// Moves a point off its surface to the side that `direction` leaves on, past its error bound and one float further on
 /// each axis. Source: pbrt 4th ed. section 6.8.6. Scales with the scene: no absolute distance.
-/// \param normal  unit
-/// geometric normal, either side
+/// \param normal  unit geometric normal, either side
 inline Vec3 offsetRayOrigin(const Vec3& p, const Vec3& error, const Vec3& normal, const Vec3& direction) {
   const float distance = glm::dot(glm::abs(normal), error);
   const Vec3 offset = (glm::dot(direction, normal) < 0 ? -distance : distance) * normal;

@@ -19,7 +19,8 @@ constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '
 constexpr std::array<std::uint8_t, 3> kJpegSignature{0xff, 0xd8, 0xff};
 
 // Deflate packs at most 1032 bytes into one (zlib's documentation), and a byte of a 1-bit PNG is 8 pixels.
-constexpr std::int64_t kPngPixelsPerByte = 1032 * 8;
+constexpr std::uint64_t kDeflateRatio = 1032;
+constexpr std::int64_t kPngPixelsPerByte = kDeflateRatio * 8;
 // A JPEG block of 8 × 8 pixels takes at least one bit.
 constexpr std::int64_t kJpegPixelsPerByte = 8 * 64;
 
@@ -27,26 +28,77 @@ bool startsWith(std::span<const std::byte> bytes, std::span<const std::uint8_t> 
   return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
 }
 
-std::uint32_t bigEndian32(std::span<const std::byte> bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
-  return value;
+std::uint32_t bigEndian16(std::span<const std::byte> bytes, std::size_t at) {
+  return std::to_integer<std::uint32_t>(bytes[at]) << 8 | std::to_integer<std::uint32_t>(bytes[at + 1]);
 }
 
-/// stb allocates what a chunk's length asks for before it looks whether the chunk is there. What comes after the last
-/// chunk it does not read.
-void checkPngChunks(std::span<const std::byte> png, const std::string& name) {
+std::uint32_t bigEndian32(std::span<const std::byte> bytes, std::size_t at) {
+  return bigEndian16(bytes, at) << 16 | bigEndian16(bytes, at + 2);
+}
+
+/// Calls visit(type, data) for each chunk but the last, after which stb reads nothing.
+/// \throws InputError if one is not there: stb allocates what its length asks for before it looks
+template <class Visit>
+void forEachPngChunk(std::span<const std::byte> png, const std::string& name, const Visit& visit) {
   constexpr std::size_t kHeader = 8;  // length and type
   constexpr std::size_t kChecksum = 4;
   constexpr std::uint32_t kEnd = 0x49454e44;  // "IEND"
   std::size_t at = kPngSignature.size();
   while (png.size() - at >= kHeader) {
     const std::uint64_t length = bigEndian32(png, at);
-    if (bigEndian32(png, at + 4) == kEnd) return;
+    const std::uint32_t type = bigEndian32(png, at + 4);
+    if (type == kEnd) return;
     at += kHeader;
     if (length + kChecksum > png.size() - at)
       throw InputError(name, "a PNG chunk reaches past the end of the file; copy it again");
+    visit(type, png.subspan(at, length));
     at += length + kChecksum;
+  }
+}
+
+/// stb unpacks all that the data hold, however small the picture is. Here they are unpacked before, into no more than
+/// that, where they are long enough for more.
+void checkPngData(std::span<const std::byte> png, glm::ivec2 size, const std::string& name) {
+  constexpr std::uint32_t kData = 0x49444154;   // "IDAT"
+  constexpr std::uint32_t kApple = 0x43674249;  // "CgBI": data without zlib's header
+  std::vector<std::byte> data;
+  bool hasHeader = true;
+  forEachPngChunk(png, name, [&](std::uint32_t type, std::span<const std::byte> chunk) {
+    if (type == kData) data.insert(data.end(), chunk.begin(), chunk.end());
+    if (type == kApple) hasHeader = false;
+  });
+  // A pixel has eight bytes at most and a row one more, of which an interlaced picture has twice as many.
+  constexpr std::uint64_t kTolerated = std::uint64_t{64} << 20;
+  const glm::u64vec2 pixels(size);
+  const std::uint64_t most = std::min<std::uint64_t>(8 * pixels.x * pixels.y + 2 * pixels.y + kTolerated, INT_MAX);
+  if (data.size() * kDeflateRatio <= most) return;
+  const auto unpack = hasHeader ? stbi_zlib_decode_buffer : stbi_zlib_decode_noheader_buffer;
+  const auto unpacked = std::make_unique_for_overwrite<char[]>(most);  // what is not written is not touched
+  const auto* packed = reinterpret_cast<const char*>(data.data());
+  if (unpack(unpacked.get(), static_cast<int>(most), packed, static_cast<int>(data.size())) < 0) {
+    throw InputError(name, "its data are damaged or unpack to more than " + std::to_string(size.x) + " x " +
+                               std::to_string(size.y) + " pixels; save it again");
+  }
+}
+
+/// stb goes over the whole picture for every scan, of which a small file may have thousands.
+void checkJpegScans(std::span<const std::byte> jpeg, const std::string& name) {
+  // A component is in one scan but in progressive pictures. Most of those have 10, and many in a picture are quick.
+  constexpr int kMaxScans = 4, kMaxProgressiveScans = 128;
+  constexpr unsigned kStuffed = 0x00, kProgressive = 0xc2, kRestart0 = 0xd0, kStart = 0xd8, kEnd = 0xd9, kScan = 0xda;
+  int scans = 0, most = kMaxScans;
+  for (std::size_t at = 0; at + 3 < jpeg.size();) {
+    const unsigned first = std::to_integer<unsigned>(jpeg[at]), marker = std::to_integer<unsigned>(jpeg[at + 1]);
+    ++at;
+    if (first != 0xff || marker == 0xff) continue;
+    ++at;
+    if (marker == kEnd) return;
+    if (marker == kStuffed || (marker >= kRestart0 && marker <= kStart)) continue;  // no segment
+    if (marker == kProgressive) most = kMaxProgressiveScans;
+    if (marker == kScan && ++scans > most) {
+      throw InputError(name, "has more than " + std::to_string(most) + " JPEG scans; save it again");
+    }
+    at += bigEndian16(jpeg, at);
   }
 }
 
@@ -61,7 +113,7 @@ glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& nam
   if (!png && !startsWith(encoded, kJpegSignature))
     throw InputError(name, "is no PNG or JPEG picture; convert it to one");
   if (encoded.size() > INT_MAX) throw InputError(name, "is larger than 2 GB; scale the picture down");
-  if (png) checkPngChunks(encoded, name);
+  if (png) forEachPngChunk(encoded, name, [](std::uint32_t, std::span<const std::byte>) {});
 
   const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.data());
   int width = 0, height = 0, components = 0;
@@ -73,7 +125,12 @@ glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& nam
 }
 
 ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name) {
-  imageSize8(encoded, name);  // refuses what stb should not see
+  const glm::ivec2 checked = imageSize8(encoded, name);  // refuses what stb should not see
+  if (startsWith(encoded, kPngSignature)) {
+    checkPngData(encoded, checked, name);
+  } else {
+    checkJpegScans(encoded, name);
+  }
   const auto* bytes = reinterpret_cast<const stbi_uc*>(encoded.data());
   const int size = static_cast<int>(encoded.size());
   int width = 0, height = 0, components = 0;

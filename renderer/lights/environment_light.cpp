@@ -9,8 +9,8 @@ namespace {
 /// for the horizon's cosine, and the sun a tile of its own.
 constexpr float kTileShare = 1.0f / 256;
 
-/// Weights are scaled so that the brightest radiance is about 2 to this power: the sum over a sphere of it is finite, and
-/// the weight of a texel 60 decades dimmer at the pole of a large picture is not denormal.
+/// Weights are scaled so that the brightest radiance is about 2 to this power: the sum over a sphere of it is finite,
+/// and the weight of a texel 60 decades dimmer at the pole of a large picture is not denormal.
 constexpr int kBrightestExponent = 100;
 
 constexpr std::int32_t kBlack = std::numeric_limits<std::int32_t>::min();

@@ -27,9 +27,9 @@ std::uint32_t LeafSums::upTo(std::uint32_t leaf) const {
 SampledLeaf LeafSums::sample(std::uint32_t first, std::uint32_t end, double u) const {
   const std::uint32_t start = before(first);
   const std::uint32_t target = start + static_cast<std::uint32_t>(u * (upTo(end) - start));
-  // The last leaf that does not begin after the target. Where intensities are alike it lies at the same share of the range as
-  // the target: a search in growing steps from there looks at a cache line or two, one by halves at five of 1,024 leaves.
-  // The target is in [leaf, next) as soon as the first loop ends.
+  // The last leaf that does not begin after the target. Where intensities are alike it lies at the same share of the
+  // range as the target: a search in growing steps from there looks at a cache line or two, one by halves at five of
+  // 1,024 leaves. The target is in [leaf, next) as soon as the first loop ends.
   std::uint32_t leaf = first + static_cast<std::uint32_t>(u * (end - first));
   std::uint32_t next = end;
   for (std::uint32_t step = 4; before(leaf) > target; step *= 2) {

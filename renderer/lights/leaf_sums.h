@@ -1,9 +1,9 @@
 /// \file leaf_sums.h
-/// Running sums of the intensities of small subtrees' leaves: a leaf below any of their nodes is chosen by a search in a few
-/// cache lines, where a walk down the nodes would wait for memory at each level.
+/// Running sums of the intensities of small subtrees' leaves: a leaf below any of their nodes is chosen by a search in
+/// a few cache lines, where a walk down the nodes would wait for memory at each level.
 ///
-/// The sums are integers, so that the probability that is reported is that of being drawn. They are of one subtree each: in
-/// sums over all leaves faint ones beside strong ones of another cluster are lost.
+/// The sums are integers, so that the probability that is reported is that of being drawn. They are of one subtree
+/// each: in sums over all leaves faint ones beside strong ones of another cluster are lost.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,8 @@ struct SampledLeaf {
 class LeafSums {
  public:
   void reserve(std::size_t leaves) { before_.reserve(leaves); }
-  /// The next leaves, which become a block. \param intensities  finite and > 0; rounded to 2⁻²⁴ of their sum, and none to 0
+  /// The next leaves, which become a block. \param intensities  finite and > 0; rounded to 2⁻²⁴ of their sum, and none
+  /// to 0
   void addBlock(std::span<const float> intensities);
 
   /// One of the leaves [first, end) in proportion to intensity. \param u  uniform in [0, 1) \pre they are of one block

@@ -172,7 +172,8 @@ class Builder {
   LightTreeNode* nodes_;
 };
 
-/// Leaves of the largest subtrees that are blocks of LeafSums: at 10⁶ lights a cluster of a cut has some 1000, and is one.
+/// Leaves of the largest subtrees that are blocks of LeafSums: at 10⁶ lights a cluster of a cut has some 1000, and is
+/// one.
 constexpr std::uint32_t kBlock = 1024;
 
 std::int16_t toSigned16(float x) {

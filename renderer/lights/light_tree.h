@@ -2,11 +2,11 @@
 /// Binary hierarchy over the lights of one group; a cluster is a node, and its lights a contiguous range of leaves.
 ///
 /// Nodes lie in depth-first order: the left child of node i is i + 1, the right child i + 2 · (leaves of the left
-/// child), and a node with one leaf is a light. Before node i lie its ancestors and whole subtrees to the left, two nodes
-/// per leaf but one: with f leaves to its left and l turns to the left on the way down to it, i = 2 f + l.
+/// child), and a node with one leaf is a light. Before node i lie its ancestors and whole subtrees to the left, two
+/// nodes per leaf but one: with f leaves to its left and l turns to the left on the way down to it, i = 2 f + l.
 ///
-/// Source: Conty Estevez and Kulla 2018, section 4; depth and degenerate cases: design notes below. Space: metres for
-/// local lights; distant lights have no box. Threads: const members may run concurrently.
+/// Source: Conty Estevez and Kulla 2018, section 4. Space: metres for local lights; distant lights have no box.
+/// Threads: const members may run concurrently.
 #pragma once
 
 #include "renderer/base/octahedral.h"
@@ -22,8 +22,8 @@ namespace cellcut {
 
 enum class NodeId : std::uint32_t {};
 
-/// 40 bytes, so that two nodes per light with what belongs to them stay below 120 bytes. descent.cpp reads the members as
-/// ten words in this order.
+/// 40 bytes, so that two nodes per light with what belongs to them stay below 120 bytes. descent.cpp reads the members
+/// as ten words in this order.
 class LightTreeNode {
  public:
   LightTreeNode() = default;
@@ -42,7 +42,8 @@ class LightTreeNode {
   float cosThetaE() const;
 
   static constexpr int kTurnBits = 7;
-  /// Steps of sin(θe/2), of the bits that the turns leave; √½ is 359.92 of them, which loses little by being rounded up.
+  /// Steps of sin(θe/2), of the bits that the turns leave; √½ is 359.92 of them, which loses little by being rounded
+  /// up.
   static constexpr float kStepsE = 509;
   static_assert(kStepsE < 1 << (16 - kTurnBits));
 
@@ -95,8 +96,8 @@ class LightTree {
   }
   static constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 
-  /// Chooses a leaf of a node with probability proportional to J: child by child down to a block of LeafSums, and not by sums
-  /// over all leaves, in which faint lights beside strong ones are lost.
+  /// Chooses a leaf of a node with probability proportional to J: child by child down to a block of LeafSums, and not
+  /// by sums over all leaves, in which faint lights beside strong ones are lost.
   /// \param first, count  the node's leaves, which the caller knows: most nodes are in no cache
   /// \param u  uniform in [0, 1)
   SampledLeaf sampleByIntensity(NodeId id, std::uint32_t first, std::uint32_t count, double u) const;

@@ -5,8 +5,8 @@
 namespace cellcut {
 
 // The base gets what the layer lets through, so that a white base under any layer reflects everything once:
-// f = albedo/π · (1 − E(wo)) (1 − E(wi)) / (1 − Ē), with the layer's directional albedo E and its mean Ē. Source: Kelemen
-// and Szirmay-Kalos 2001, equation 6.
+// f = albedo/π · (1 − E(wo)) (1 − E(wi)) / (1 − Ē), with the layer's directional albedo E and its mean Ē. Source:
+// Kelemen and Szirmay-Kalos 2001, equation 6.
 Bsdf::Bsdf(const BsdfParameters& p)
     : diffuse_(p.diffuse * kInvPi),
       f0_(p.f0),

@@ -1,6 +1,7 @@
 #include "renderer/scene/camera.h"
 
 #include <cassert>
+#include <tuple>
 
 namespace cellcut {
 
@@ -25,6 +26,13 @@ Camera defaultCamera(const Bounds& bounds) {
   // The sphere around the box just touches the top and the bottom of the picture.
   camera.position = centre + radius / std::sin(std::atan(camera.halfHeight)) * camera.back;
   return camera;
+}
+
+bool isSameView(const Camera& a, const Camera& b) {
+  // The bindings stop to compile when a member is added. The name is no part of the picture.
+  const auto& [name, orthographic, position, right, up, back, halfHeight] = a;
+  return std::tie(orthographic, position, right, up, back, halfHeight) ==
+         std::tie(b.orthographic, b.position, b.right, b.up, b.back, b.halfHeight);
 }
 
 }  // namespace cellcut

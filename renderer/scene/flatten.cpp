@@ -46,7 +46,8 @@ DoubleBounds instanceBounds(const Part& part, const glm::dmat4& world) {
       DoubleBounds::merged);
 }
 
-/// Bounds of everything that has a place, in the file's coordinates.
+/// Bounds of the triangles in the file's coordinates; of the lights only where there are none, for around the middle of
+/// a room and a star that lights it, floats would hold neither.
 DoubleBounds draftBounds(const SceneDraft& draft) {
   DoubleBounds bounds = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, draft.instances.size()), DoubleBounds{},
@@ -58,6 +59,7 @@ DoubleBounds draftBounds(const SceneDraft& draft) {
         return sum;
       },
       DoubleBounds::merged);
+  if (!bounds.empty()) return bounds;
   for (const glm::dvec3& p : draft.pointPositions) bounds.add(p);
   for (const glm::dvec3& p : draft.spotPositions) bounds.add(p);
   return bounds;
@@ -176,13 +178,6 @@ void writeVertices(const Part& part, const Placement& place, const glm::dvec3& c
                     });
 }
 
-/// Twice the area times the unit normal, of the rounded positions, in double: no product of two differences of floats
-/// leaves its range, so that a triangle of any size has an area unless its corners lie on a line.
-glm::dvec3 facetNormal(const Mesh& mesh, const Triangle& triangle) {
-  const glm::dvec3 a(mesh.positions[triangle.x]), b(mesh.positions[triangle.y]), c(mesh.positions[triangle.z]);
-  return glm::cross(b - a, c - a);
-}
-
 bool isDegenerate(const Mesh& mesh, const Triangle& triangle) {
   const double doubleArea = glm::length(facetNormal(mesh, triangle));
   return !(doubleArea > 0 && std::isfinite(doubleArea));
@@ -249,7 +244,7 @@ void placeLightsAndCameras(SceneDraft& draft) {
     scene.spotLights[i].position = placed(draft.spotPositions[i], draft, "a spot light");
   }
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    scene.cameras[i].position = placed(draft.cameraPositions[i], draft, "camera ", scene.cameras[i].name);
+    scene.cameras[i].position = placed(draft.cameraPositions[i], draft, "camera ", printable(scene.cameras[i].name));
   }
 }
 

@@ -1,8 +1,8 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf_nodes.h"
 
+#include <map>
 #include <numbers>
-#include <set>
 
 namespace cellcut {
 namespace {
@@ -36,16 +36,22 @@ void setLens(const tinygltf::Camera& source, const std::string& place, Camera& c
   }
 }
 
-std::string uniqueName(const std::string& wanted, std::set<std::string>& taken) {
+/// Names that are taken, each with the number that is tried next for one more of its name.
+using TakenNames = std::map<std::string, int>;
+
+std::string uniqueName(const std::string& wanted, TakenNames& taken) {
+  const auto [entry, isNew] = taken.try_emplace(wanted, 2);
   std::string name = wanted;
-  for (int i = 2; !taken.insert(name).second; ++i) name = wanted + '.' + std::to_string(i);
+  for (bool isFree = isNew; !isFree; isFree = taken.try_emplace(name, 2).second) {
+    name = wanted + '.' + std::to_string(entry->second++);
+  }
   return name;
 }
 
 }  // namespace
 
 void readCameras(const GltfDocument& document, const std::vector<GltfNode>& nodes, SceneDraft& draft) {
-  std::set<std::string> names;
+  TakenNames names;
   for (const GltfNode& node : nodes) {
     const tinygltf::Node& source = document.model.nodes[node.index];
     if (source.camera < 0) continue;

@@ -7,11 +7,16 @@
 #include "renderer/scene/scene_folder.h"
 
 #include <cstring>
+#include <map>
 #include <new>
 #include <optional>
+#include <set>
 
 namespace cellcut {
 namespace {
+
+/// Most bytes that buffers may take because they name a file that another has named: the parser keeps a copy for each.
+constexpr std::uintmax_t kMaxRepeatedBytes = std::uintmax_t{1} << 27;
 
 /// What the parser's callbacks share. They report through the parser's own error path; the first InputError is kept
 /// here, because the parser would drop it (a missing image is only a warning to it).
@@ -20,6 +25,11 @@ struct ParseContext {
   const SceneFolder& folder;
   std::vector<std::vector<std::byte>>& images;
   std::optional<InputError> error = std::nullopt;
+  std::string file = {};                        ///< that was asked for last
+  std::set<std::string> filesRead = {};         ///< each once
+  std::uintmax_t repeatedBytes = 0;             ///< of files that were read once more
+  std::map<std::string, int> imageOfFile = {};  ///< the first that names it
+  std::map<int, int> firstImageLike = {};       ///< of images that name a file once more
 
   bool fail(const InputError& reason) {
     if (!error) error = reason;
@@ -36,7 +46,17 @@ bool readBeside(std::vector<unsigned char>* bytes, std::string*, const std::stri
   // Data of a kind that the parser does not know, such as WebP. A buffer cannot do without; an image may never be used.
   if (reference.starts_with("data:")) return false;
   try {
+    context.file = context.folder.resolve(reference).string();
+    if (context.imageOfFile.contains(context.file)) {  // an image again, for the parser reads all buffers first
+      bytes->assign(1, 0);                             // not empty is all that it wants; keepEncoded knows better
+      return true;
+    }
     const std::vector<std::byte> file = context.folder.read(reference);
+    if (!context.filesRead.insert(context.file).second) context.repeatedBytes += file.size();
+    if (context.repeatedBytes > kMaxRepeatedBytes) {
+      throw InputError(context.name + ": \"" + printable(reference) + '"',
+                       "is named by too many buffers; let their views share one");
+    }
     bytes->resize(file.size());
     if (!file.empty()) std::memcpy(bytes->data(), file.data(), file.size());
     return true;
@@ -64,6 +84,13 @@ bool keepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, 
                  int size, void* user) {
   if (image->bufferView >= 0) return true;
   ParseContext& context = contextOf(user);
+  if (!image->uri.empty()) {  // else its data are in the URI itself
+    const auto [first, isNew] = context.imageOfFile.try_emplace(context.file, index);
+    if (!isNew) {
+      context.firstImageLike[index] = first->second;
+      return true;
+    }
+  }
   const auto slot = static_cast<std::size_t>(index);
   if (size < 0) {
     return context.fail(InputError(context.name + ": images[" + std::to_string(index) + "]",
@@ -78,11 +105,7 @@ bool keepEncoded(tinygltf::Image* image, int index, std::string*, std::string*, 
 std::string firstLine(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \n");
   if (begin == std::string::npos) return "it is not a glTF file";
-  std::string line = text.substr(begin, std::min<std::size_t>(text.find('\n', begin) - begin, 200));
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  }
-  return line;
+  return printable(text.substr(begin, text.find('\n', begin) - begin), 200);
 }
 
 /// False if the parser cannot go on; `complaint` then says why, and else what it goes on without.
@@ -144,6 +167,10 @@ GltfDocument readGltf(const std::filesystem::path& file) {
   if (context.error) throw *context.error;
   if (!parsed) throw InputError(document.name, document.complaint + "; export the file again");
   document.images.resize(document.model.images.size());
+  for (tinygltf::Texture& texture : document.model.textures) {
+    const auto repeated = context.firstImageLike.find(texture.source);
+    if (repeated != context.firstImageLike.end()) texture.source = repeated->second;
+  }
   checkDocument(document);
   return document;
 }

@@ -15,8 +15,10 @@ namespace cellcut {
 struct GltfDocument {
   std::string name;  ///< of the file, for messages
   tinygltf::Model model;
-  std::vector<std::vector<std::byte>> images;  ///< PNG or JPEG as stored, of images that lie outside of buffers
-  std::string complaint;                       ///< what the parser could not read and left out; empty if nothing
+  /// PNG or JPEG as stored, of images that lie outside of buffers; empty for one that names the file of another, in whose
+  /// place its textures name that one
+  std::vector<std::vector<std::byte>> images;
+  std::string complaint;  ///< what the parser could not read and left out; empty if nothing
 };
 
 /// Reads and parses a .gltf or .glb with the files beside it, and runs checkDocument on it.

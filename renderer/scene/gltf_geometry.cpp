@@ -151,14 +151,14 @@ Part readPrimitive(const GltfDocument& document, std::size_t mesh, const tinyglt
   const Source source{document, mesh, primitive};
   Part part;
   part.material = id;
+  part.triangles.resize(triangleCount(document, primitive));
+  if (part.triangles.empty()) return part;  // its corners, however many, are not looked at
   const std::optional<AccessorView> positions = source.attribute("POSITION", {TINYGLTF_TYPE_VEC3});
-  if (!positions) return part;
   std::vector<std::uint32_t> corners = readCorners(source, positions->count);
-  part.triangles.resize(trianglesOf(primitive.mode, corners.size()));
-  if (part.triangles.empty()) return part;
+  if (primitive.mode == TINYGLTF_MODE_TRIANGLES) corners.resize(3 * part.triangles.size());  // one or two may be over
 
   std::vector<std::uint32_t> used;
-  if (primitive.indices >= 0) used = compact(corners, positions->count);
+  if (primitive.indices >= 0 || corners.size() < positions->count) used = compact(corners, positions->count);
   part.positions = readVectors<3>(*positions, used);
   readAttributes(source, material, positions->count, used, part);
   for (std::size_t i = 0; i < part.triangles.size(); ++i) {

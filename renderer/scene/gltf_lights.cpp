@@ -15,7 +15,7 @@ struct PlacedLight {
   Vec3 power;  ///< W/sr or W/m²
 
   [[noreturn]] void refuse(const std::string& problem) const {
-    throw InputError(place, "light \"" + light.name.substr(0, 80) + "\" " + problem);
+    throw InputError(place, "light \"" + printable(light.name) + "\" " + problem);
   }
 };
 
@@ -60,6 +60,7 @@ void setCone(const PlacedLight& placed, Scene& scene, SpotLight& spot) {
 
 void addLight(const PlacedLight& placed, SceneDraft& draft) {
   Scene& scene = draft.scene;
+  if (placed.light.range > 0) warnOnce(scene, "lights shine beyond the range that the file gives them");
   const glm::dvec3 position(placed.world[3]);
   if (placed.light.type == "point") {
     scene.pointLights.push_back({Vec3(0), placed.power});

@@ -9,6 +9,7 @@
 #include "renderer/scene/gltf_values.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -21,43 +22,62 @@ struct UsedPrimitive {
   const tinygltf::Primitive* primitive;
 };
 
-const tinygltf::Mesh* meshOf(const GltfDocument& document, const GltfNode& node) {
-  const int mesh = document.model.nodes[node.index].mesh;
-  return mesh < 0 ? nullptr : &document.model.meshes[static_cast<std::size_t>(mesh)];
-}
+/// Most primitives that are shown, one in several places counted as often: each takes 200 bytes while the scene is
+/// loaded.
+constexpr std::size_t kMaxPlacedPrimitives = std::size_t{1} << 24;
+
+/// What a mesh adds to the scene wherever it is placed.
+struct MeshSize {
+  std::size_t primitives = 0;  ///< that have triangles
+  std::size_t triangles = 0;
+};
 
 /// A small file can ask for any number of triangles by instances of instances: count before anything is read.
-void checkTriangleBudget(const GltfDocument& document, const std::vector<GltfNode>& nodes, std::size_t most) {
-  std::size_t count = 0;
+void checkInstances(const GltfDocument& document, const std::vector<GltfNode>& nodes, std::size_t mostTriangles) {
+  std::vector<MeshSize> sizes(document.model.meshes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives) {
+      const std::size_t triangles = triangleCount(document, primitive);
+      sizes[i].primitives += triangles > 0;
+      sizes[i].triangles += triangles;
+    }
+  }
+  MeshSize all;
   for (const GltfNode& node : nodes) {
-    const tinygltf::Mesh* mesh = meshOf(document, node);
-    if (!mesh) continue;
-    for (const tinygltf::Primitive& primitive : mesh->primitives) count += triangleCount(document, primitive);
-    if (count > most) {
-      throw InputError(document.name, "more than " + std::to_string(most) +
+    const int mesh = document.model.nodes[node.index].mesh;
+    if (mesh < 0) continue;
+    all.primitives += sizes[static_cast<std::size_t>(mesh)].primitives;
+    all.triangles += sizes[static_cast<std::size_t>(mesh)].triangles;
+    if (all.triangles > mostTriangles) {
+      throw InputError(document.name, "more than " + std::to_string(mostTriangles) +
                                           " triangles with all instances written out, the limit (--max-triangles)");
+    }
+    if (all.primitives > kMaxPlacedPrimitives) {
+      throw InputError(document.name,
+                       "more than " + std::to_string(kMaxPlacedPrimitives) +
+                           " primitives with all instances written out; join primitives of one material");
     }
   }
 }
 
-/// Lists the primitives of the meshes in use and instances of them in draft.instances.
+/// Lists the primitives of the meshes in use and, in draft.instances, where those with triangles are.
 std::vector<UsedPrimitive> listPrimitives(const GltfDocument& document, const std::vector<GltfNode>& nodes,
                                           SceneDraft& draft) {
-  constexpr std::size_t kUnused = ~std::size_t{0};
-  std::vector<std::size_t> firstPart(document.model.meshes.size(), kUnused);
+  std::vector<std::optional<std::vector<std::size_t>>> partsOf(document.model.meshes.size());  // of those in use
   std::vector<UsedPrimitive> used;
   for (const GltfNode& node : nodes) {
-    const tinygltf::Mesh* mesh = meshOf(document, node);
-    if (!mesh) continue;
+    const int mesh = document.model.nodes[node.index].mesh;
+    if (mesh < 0) continue;
     ++draft.scene.counts.instances;
-    const auto index = static_cast<std::size_t>(document.model.nodes[node.index].mesh);
-    if (firstPart[index] == kUnused) {
-      firstPart[index] = used.size();
-      for (const tinygltf::Primitive& primitive : mesh->primitives) used.push_back({index, &primitive});
+    const auto index = static_cast<std::size_t>(mesh);
+    if (!partsOf[index]) {
+      partsOf[index].emplace();
+      for (const tinygltf::Primitive& primitive : document.model.meshes[index].primitives) {
+        if (triangleCount(document, primitive) > 0) partsOf[index]->push_back(used.size());
+        used.push_back({index, &primitive});
+      }
     }
-    for (std::size_t i = 0; i < mesh->primitives.size(); ++i) {
-      draft.instances.push_back({firstPart[index] + i, node.world});
-    }
+    for (const std::size_t part : *partsOf[index]) draft.instances.push_back({part, node.world});
   }
   return used;
 }
@@ -121,7 +141,7 @@ SceneDraft loadGltf(const std::filesystem::path& file, const LoadOptions& option
   draft.scene.counts.meshes = document.model.meshes.size();
 
   const std::vector<GltfNode> nodes = activeNodes(document);
-  checkTriangleBudget(document, nodes, options.limits.maxTriangles);
+  checkInstances(document, nodes, options.limits.maxTriangles);
   readMaterials(document, options.limits.maxTextureBytes, draft.scene);
   const std::vector<UsedPrimitive> used = listPrimitives(document, nodes, draft);
   readParts(document, used, draft);

@@ -77,11 +77,13 @@ void readEmission(const Reader& reader, const tinygltf::Material& source, Materi
   }
   const glm::dvec3 factor = vectorOr<3>(source.emissiveFactor, glm::dvec3(0), reader.place + ": emissiveFactor");
   if (factor.x < 0 || factor.y < 0 || factor.z < 0 || strength < 0) {
-    throw InputError(reader.place, "\"" + source.name + "\" emits negative light; make its emission 0 or more");
+    throw InputError(reader.place,
+                     "\"" + printable(source.name) + "\" emits negative light; make its emission 0 or more");
   }
   material.emission = Vec3(factor * strength);
   if (!isFinite(material.emission)) {
-    throw InputError(reader.place, "\"" + source.name + "\" emits more than a float can hold; lower its emission");
+    throw InputError(reader.place,
+                     "\"" + printable(source.name) + "\" emits more than a float can hold; lower its emission");
   }
   material.setSlot(TextureUse::kEmission, reader.slot(source.emissiveTexture));
 }

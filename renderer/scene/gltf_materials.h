@@ -8,10 +8,9 @@
 namespace cellcut {
 
 /// Fills scene.materials (one per glTF material, in order, then glTF's default material if a primitive has none),
-/// textures and texels. Images that no material uses are not decoded.
-/// \throws InputError for values without meaning
-/// (negative emission by name) and pictures that cannot be decoded. Values that are only out of range are clamped with
-/// a warning.
+/// textures and texels. Images that no material uses are not decoded. Values that are only out of range are
+/// clamped with a warning.
+/// \throws InputError for values without meaning (negative emission by name) and pictures that cannot be decoded
 void readMaterials(const GltfDocument& document, std::uint64_t maxTextureBytes, Scene& scene);
 
 }  // namespace cellcut

@@ -17,8 +17,7 @@ struct GltfNode {
 
 /// All nodes below the active scene's roots (`scene`, else the first; none if the file has no scene), parents before
 /// children. Takes time and memory linear in the nodes, however deep.
-/// \throws InputError if a transform is broken or
-/// not finite
+/// \throws InputError if a transform is broken or not finite
 std::vector<GltfNode> activeNodes(const GltfDocument& document);
 
 /// Adds the KHR_lights_punctual lights of the nodes to the draft.

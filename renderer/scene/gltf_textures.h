@@ -25,8 +25,7 @@ class GltfTextures {
 
   /// The slot of a use; its texture joins the scene if it is new there. Empty, with a warning, if the texture has no
   /// picture that can be read or wants a third set of coordinates.
-  /// \throws InputError at `place` if the transform is
-  /// broken
+  /// \throws InputError at `place` if the transform is broken
   TextureSlot slot(const GltfTextureInfo& info, const std::string& place);
 
   /// Decodes the pictures of all slots so far into scene.texels.

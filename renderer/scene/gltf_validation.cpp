@@ -45,10 +45,10 @@ struct Checker {
 void checkVersion(const GltfDocument& document) {
   const tinygltf::Asset& asset = document.model.asset;
   if (!asset.version.starts_with("2.")) {
-    throw InputError(document.name, "glTF version \"" + asset.version.substr(0, 20) + "\"; only version 2 is read");
+    throw InputError(document.name, "glTF version \"" + printable(asset.version, 20) + "\"; only version 2 is read");
   }
   if (!asset.minVersion.empty() && asset.minVersion != "2.0") {
-    throw InputError(document.name, "needs glTF version " + asset.minVersion.substr(0, 20) + "; 2.0 is read");
+    throw InputError(document.name, "needs glTF version " + printable(asset.minVersion, 20) + "; 2.0 is read");
   }
 }
 
@@ -145,7 +145,7 @@ void checkNodes(const Checker& check) {
 void checkExtensions(const GltfDocument& document) {
   for (const std::string& extension : document.model.extensionsRequired) {
     if (!isKnown(extension)) {
-      throw InputError(document.name, "requires the extension " + extension.substr(0, 80) +
+      throw InputError(document.name, "requires the extension " + printable(extension) +
                                           ", which is not supported; export the file without it");
     }
   }
@@ -153,8 +153,7 @@ void checkExtensions(const GltfDocument& document) {
 
 void warnOfIgnoredExtensions(const GltfDocument& document, Scene& scene) {
   for (const std::string& extension : document.model.extensionsUsed) {
-    if (!isKnown(extension))
-      warnOnce(scene, "the extension " + extension.substr(0, 80) + " is not supported and ignored");
+    if (!isKnown(extension)) warnOnce(scene, "the extension " + printable(extension) + " is not supported and ignored");
   }
 }
 

@@ -1,23 +1,15 @@
 #include "renderer/scene/load_scene.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/image_io.h"
 #include "renderer/scene/gltf_loader.h"
 #include "renderer/scene/obj_loader.h"
 #include "renderer/scene/scene_draft.h"
 
-#include <algorithm>
-#include <cctype>
 #include <new>
 
 namespace cellcut {
 namespace {
-
-std::string lowerExtension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 SceneDraft loadDraft(const std::filesystem::path& file, const LoadOptions& options) {
   const std::string extension = lowerExtension(file);

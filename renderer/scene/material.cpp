@@ -36,14 +36,29 @@ TexelEncoding encodingOf(TextureUse use) {
   return TexelEncoding::kLinear;
 }
 
-/// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent. Most materials have no texture:
-/// ask hasTextures() first.
+/// A slot's texel, or nothing to multiply by when the slot or its coordinates are absent. Most materials have no
+/// texture: ask hasTextures() first.
 Vec4 slotValue(const Scene& scene, TextureUse use, const SurfaceCoordinates& at) {
   const TextureSlot& slot = materialOf(scene, at).slot(use);
   if (!slot.texture) return Vec4(1.0f);
   const std::vector<Vec2>& texCoords = at.mesh->texCoords[slot.texCoord];
   const Vec2 uv = texCoords.empty() ? Vec2(0.0f) : interpolate(texCoords, at);
   return lookup(scene, scene.textures[indexOf(*slot.texture)], encodingOf(use), slotUv(slot, uv));
+}
+
+/// The normal that the normal map gives in place of `normal`. \pre the mesh has tangents
+Vec3 mappedNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3& normal) {
+  const Vec4 tangent4 = interpolate(at.mesh->tangents, at);
+  const Vec3 inPlane = Vec3(tangent4) - glm::dot(Vec3(tangent4), normal) * normal;
+  const float tangentLength = glm::length(inPlane);
+  if (!(tangentLength > 0)) return normal;
+  const Vec3 tangent = inPlane / tangentLength;
+  const Vec3 bitangent = (tangent4.w < 0 ? -1.0f : 1.0f) * glm::cross(normal, tangent);
+  const Vec3 texel = Vec3(slotValue(scene, TextureUse::kNormal, at)) * 2.0f - Vec3(1);
+  const float scale = materialOf(scene, at).normalScale;
+  const Vec3 bent = texel.x * scale * tangent + texel.y * scale * bitangent + texel.z * normal;
+  const float bentLength = glm::length(bent);
+  return bentLength > 0 ? bent / bentLength : normal;
 }
 
 Vec4 baseColorAlpha(const Scene& scene, const SurfaceCoordinates& at) {
@@ -57,8 +72,7 @@ Vec4 baseColorAlpha(const Scene& scene, const SurfaceCoordinates& at) {
 /// Corners of the triangle in a slot's texel coordinates; nothing without a texture.
 struct TexelFootprint {
   std::array<Vec2, 3> corners;
-  const ImageRgba8* texels;
-  const Texture* texture;
+  TexelsId texels;
 };
 std::optional<TexelFootprint> footprint(const Scene& scene, const TextureSlot& slot, const Mesh& mesh,
                                         std::uint32_t triangle) {
@@ -66,7 +80,7 @@ std::optional<TexelFootprint> footprint(const Scene& scene, const TextureSlot& s
   const Texture& texture = scene.textures[indexOf(*slot.texture)];
   const ImageRgba8& texels = scene.texels[indexOf(texture.texels)];
   const Vec2 size(static_cast<float>(texels.width()), static_cast<float>(texels.height()));
-  TexelFootprint result{{}, &texels, &texture};
+  TexelFootprint result{{}, texture.texels};
   for (int k = 0; k < 3; ++k) {
     const Vec2 uv = mesh.texCoords[slot.texCoord][mesh.triangles[triangle][k]];
     result.corners[static_cast<std::size_t>(k)] = slotUv(slot, uv) * size;
@@ -75,27 +89,16 @@ std::optional<TexelFootprint> footprint(const Scene& scene, const TextureSlot& s
 }
 
 /// Texels of one axis that a lookup between `lower` and `upper` can touch: all when the range wraps.
-struct TexelRange {
-  int first;
-  int last;
-};
 TexelRange texelRange(float lower, float upper, int size) {
   // Half a texel for the filter, one more for the rounding of the coordinates.
   if (!(lower >= 2 && upper <= static_cast<float>(size) - 2)) return {0, size - 1};
   return {static_cast<int>(lower) - 2, std::min(static_cast<int>(upper) + 2, size - 1)};
 }
 
-bool anyTexel(const TexelFootprint& area, const auto& lights) {
-  const auto [x0, x1] = std::minmax({area.corners[0].x, area.corners[1].x, area.corners[2].x});
-  const auto [y0, y1] = std::minmax({area.corners[0].y, area.corners[1].y, area.corners[2].y});
-  const TexelRange columns = texelRange(x0, x1, area.texels->width());
-  const TexelRange rows = texelRange(y0, y1, area.texels->height());
-  for (int y = rows.first; y <= rows.last; ++y) {
-    for (int x = columns.first; x <= columns.last; ++x) {
-      if (lights(area.texels->at(x, y))) return true;
-    }
-  }
-  return false;
+/// Where the material emits if its texture lets it.
+ColorChannels emittingChannels(const Material& material) {
+  const Vec3& e = material.emission;
+  return static_cast<ColorChannels>((e.x > 0 ? 1 : 0) | (e.y > 0 ? 2 : 0) | (e.z > 0 ? 4 : 0));
 }
 
 }  // namespace
@@ -119,27 +122,20 @@ Vec3 baseColor(const Scene& scene, const SurfaceCoordinates& at) {
 }
 
 Vec3 shadingNormal(const Scene& scene, const SurfaceCoordinates& at, const Vec3& geometricNormal) {
-  if (at.mesh->normals.empty()) return geometricNormal;
-  const Vec3 interpolated = interpolate(at.mesh->normals, at);
-  const float length = glm::length(interpolated);
-  if (!(length > 0)) return geometricNormal;
-  Vec3 normal = interpolated / length;
-
   const Material& material = materialOf(scene, at);
-  if (hasTextures(material) && material.slot(TextureUse::kNormal).texture && !at.mesh->tangents.empty()) {
-    const Vec4 tangent4 = interpolate(at.mesh->tangents, at);
-    const Vec3 inPlane = Vec3(tangent4) - glm::dot(Vec3(tangent4), normal) * normal;
-    const float tangentLength = glm::length(inPlane);
-    if (tangentLength > 0) {
-      const Vec3 tangent = inPlane / tangentLength;
-      const Vec3 bitangent = (tangent4.w < 0 ? -1.0f : 1.0f) * glm::cross(normal, tangent);
-      const Vec3 texel = Vec3(slotValue(scene, TextureUse::kNormal, at)) * 2.0f - Vec3(1);
-      const Vec3 bent =
-          texel.x * material.normalScale * tangent + texel.y * material.normalScale * bitangent + texel.z * normal;
-      const float bentLength = glm::length(bent);
-      if (bentLength > 0) normal = bent / bentLength;
-    }
+  const bool isMapped =
+      hasTextures(material) && material.slot(TextureUse::kNormal).texture && !at.mesh->tangents.empty();
+  Vec3 normal = geometricNormal;
+  if (!at.mesh->normals.empty()) {
+    const Vec3 interpolated = interpolate(at.mesh->normals, at);
+    const float length = glm::length(interpolated);
+    if (!(length > 0)) return geometricNormal;
+    normal = interpolated / length;
+  } else if (isMapped &&
+             glm::dot(facetNormal(*at.mesh, at.mesh->triangles[at.triangle]), glm::dvec3(geometricNormal)) < 0) {
+    normal = -geometricNormal;  // maps are of the front
   }
+  if (isMapped) normal = mappedNormal(scene, at, normal);
   return glm::dot(normal, geometricNormal) < 0 ? -normal : normal;
 }
 
@@ -188,14 +184,22 @@ int emissionResolution(const Scene& scene, const Mesh& mesh, std::uint32_t trian
   return static_cast<int>(std::min(std::ceil(longest), 64.0f));
 }
 
-bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
+bool canEmit(const Scene& scene, const Material& material, LitTexelsOfScene& lit) {
+  if (isBlack(material.emission) || material.unlit) return false;
+  const TextureSlot& slot = material.slot(TextureUse::kEmission);
+  return !slot.texture || lit.of(scene.textures[indexOf(*slot.texture)].texels).any(emittingChannels(material));
+}
+
+bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle, LitTexelsOfScene& lit) {
   const Material& material = scene.materials[indexOf(mesh.material)];
-  const auto emissive = footprint(scene, material.slot(TextureUse::kEmission), mesh, triangle);
-  const auto lit = [&](const ImageRgba8::value_type& t) {
-    return (material.emission.x > 0 && t.x) || (material.emission.y > 0 && t.y) || (material.emission.z > 0 && t.z);
-  };
+  const auto area = footprint(scene, material.slot(TextureUse::kEmission), mesh, triangle);
   // Coverage is not searched: a triangle that may be transparent everywhere is kept.
-  return !emissive || anyTexel(*emissive, lit);
+  if (!area) return true;
+  const ImageRgba8& texels = scene.texels[indexOf(area->texels)];
+  const auto [x0, x1] = std::minmax({area->corners[0].x, area->corners[1].x, area->corners[2].x});
+  const auto [y0, y1] = std::minmax({area->corners[0].y, area->corners[1].y, area->corners[2].y});
+  return lit.of(area->texels)
+      .any(texelRange(x0, x1, texels.width()), texelRange(y0, y1, texels.height()), emittingChannels(material));
 }
 
 }  // namespace cellcut

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/scene/bsdf.h"
+#include "renderer/scene/lit_texels.h"
 #include "renderer/scene/scene.h"
 
 namespace cellcut {
@@ -36,8 +37,12 @@ Bsdf bsdfAt(const Scene& scene, const SurfaceCoordinates& at);
 /// and coverage.
 int emissionResolution(const Scene& scene, const Mesh& mesh, std::uint32_t triangle);
 
+/// False only if no surface of the material can have a positive emission: it is black or unlit, or its texture is black.
+/// \param lit  of the scene
+bool canEmit(const Scene& scene, const Material& material, LitTexelsOfScene& lit);
+
 /// False only if no point of the triangle can have a positive emission: every texel that a lookup on it can touch is
 /// black.
-bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle);
+bool canEmit(const Scene& scene, const Mesh& mesh, std::uint32_t triangle, LitTexelsOfScene& lit);
 
 }  // namespace cellcut

@@ -2,13 +2,15 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
+#include "renderer/scene/obj_lines.h"
 #include "renderer/scene/obj_materials.h"
 #include "renderer/scene/triangulate.h"
 
 #include <algorithm>
+#include <istream>
 #include <map>
 #include <optional>
-#include <sstream>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 
@@ -22,6 +24,10 @@ namespace {
 
 /// Most corners of a face: cutting it up may take the square of them.
 constexpr std::size_t kMaxCorners = 4096;
+/// Most looks at corners to cut up the faces of a file: half a second, and about what it takes to read a corner for each.
+/// Convex faces need one for a corner, others of a hundred corners 10 to 50.
+constexpr std::size_t kMaxLooks = std::size_t{1} << 26;
+constexpr std::size_t kMaxLooksPerCorner = 64;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
@@ -68,13 +74,14 @@ class ObjReader {
   /// OBJ counts v from the bottom of the picture, the scene from its top.
   void addTexCoord(const glm::dvec2& uv) { texCoords_.emplace_back(uv.x, 1 - uv.y); }
   void addFace(std::span<const tinyobj::index_t> indices);
-  void useMaterial(const std::string& name);
-  void readLibrary(std::string reference);
+  void useMaterial(std::string_view name);
+  void readLibraries(std::string names);
   void finish();
 
  private:
   std::uint32_t resolved(int index, std::size_t count, const char* what) const;
   MaterialId materialOrDefault(std::optional<MaterialId> id);
+  bool readLibrary(const std::string& reference);
   Part partOf(const PartKey& key, const PartBuilder& builder, const glm::dvec3& centre);
 
   SceneFolder folder_;
@@ -82,10 +89,11 @@ class ObjReader {
   std::vector<glm::dvec3> positions_;
   std::vector<Vec3> normals_;
   std::vector<Vec2> texCoords_;
+  std::set<std::string> libraries_;  ///< that have been read
   std::map<std::string, MaterialId> materials_;
   std::optional<MaterialId> current_, default_;
   std::map<PartKey, PartBuilder> parts_;
-  std::size_t faces_ = 0, triangles_ = 0;
+  std::size_t faces_ = 0, triangles_ = 0, corners_ = 0, looks_ = 0;
 };
 
 /// 0-based index of what OBJ counts from 1, or from the end if negative. 0 stands for "not given".
@@ -132,28 +140,44 @@ void ObjReader::addFace(std::span<const tinyobj::index_t> indices) {
                                       " triangles, the limit (--max-triangles)");
   }
   PartBuilder& part = parts_[{current_, hasNormals, hasTexCoords}];
-  for (const auto& [a, b, c] : triangulate(polygon)) {
+  for (const auto& [a, b, c] : triangulate(polygon, looks_)) {
     const std::uint32_t first = part.vertex(corners[a]), second = part.vertex(corners[b]),
                         third = part.vertex(corners[c]);
     part.triangles.emplace_back(first, second, third);
   }
-}
-
-void ObjReader::useMaterial(const std::string& name) {
-  const auto found = materials_.find(name);
-  current_ = found == materials_.end() ? std::nullopt : std::optional(found->second);
-  if (!current_) warnOnce(draft_.scene, "material " + name.substr(0, 80) + " is missing; a grey one takes its place");
-}
-
-void ObjReader::readLibrary(std::string reference) {
-  std::replace(reference.begin(), reference.end(), '\\', '/');
-  const std::filesystem::path file = folder_.resolve(reference);
-  if (!std::filesystem::exists(file)) {
-    warnOnce(draft_.scene, "material library " + reference.substr(0, 80) + " is missing");
-    return;
+  corners_ += corners.size();
+  if (looks_ > kMaxLooks + kMaxLooksPerCorner * corners_) {
+    throw InputError(place + std::to_string(faces_),
+                     "it and the faces before take too long to cut up; make triangles of faces of many corners");
   }
-  materials_.merge(
-      readMtl(folder_, folder_.read(reference), file.filename().string(), draft_.limits.maxTextureBytes, draft_.scene));
+}
+
+void ObjReader::useMaterial(std::string_view name) {
+  const std::string material(unquoted(name));
+  const auto found = materials_.find(material);
+  current_ = found == materials_.end() ? std::nullopt : std::optional(found->second);
+  if (!current_) warnOnce(draft_.scene, "material " + printable(material) + " is missing; a grey one takes its place");
+}
+
+/// One name that has blanks, or several; of materials with the same name the first counts.
+void ObjReader::readLibraries(std::string names) {
+  std::replace(names.begin(), names.end(), '\\', '/');
+  std::string_view rest = names;
+  takeWord(rest);
+  if (!rest.empty() && readLibrary(names)) return;
+  rest = names;
+  for (std::string name(takeWord(rest)); !name.empty(); name = takeWord(rest)) {
+    if (!readLibrary(name)) warnOnce(draft_.scene, "material library " + printable(name) + " is missing");
+  }
+}
+
+/// False if there is none.
+bool ObjReader::readLibrary(const std::string& reference) {
+  const std::filesystem::path file = folder_.resolve(reference);
+  if (!std::filesystem::exists(file)) return false;
+  if (libraries_.insert(file.string()).second)
+    materials_.merge(readMtl(folder_, reference, draft_.limits.maxTextureBytes, draft_.scene));
+  return true;
 }
 
 MaterialId ObjReader::materialOrDefault(std::optional<MaterialId> id) {
@@ -188,10 +212,13 @@ Part ObjReader::partOf(const PartKey& key, const PartBuilder& builder, const glm
 void ObjReader::finish() {
   // The file has decimals; as floats they keep them only around the middle of the model.
   glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper(-lower);
-  for (const glm::dvec3& p : positions_) {
-    if (!isFinite(Vec3(p))) continue;
-    lower = glm::min(lower, p);
-    upper = glm::max(upper, p);
+  for (const auto& [key, builder] : parts_) {
+    for (const Corner& corner : builder.vertices) {
+      const glm::dvec3& p = positions_[corner.position];
+      if (!isFinite(Vec3(p))) continue;
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
+    }
   }
   const glm::dvec3 centre = lower.x <= upper.x ? 0.5 * lower + 0.5 * upper : glm::dvec3(0);
   const glm::dmat4 world = glm::translate(glm::dmat4(1), centre);
@@ -206,18 +233,12 @@ ObjReader& readerOf(void* user) {
   return *static_cast<ObjReader*>(user);
 }
 
-/// Hands the parser's "mtllib" on; the parser itself gets no materials and no file.
-class LibraryHook : public tinyobj::MaterialReader {
+/// Read-only stream over bytes that outlive it.
+class ByteStream : private std::streambuf, public std::istream {
  public:
-  explicit LibraryHook(ObjReader& reader) : reader_(reader) {}
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>*, std::map<std::string, int>*, std::string*,
-                  std::string*) override {
-    reader_.readLibrary(name);
-    return true;
+  explicit ByteStream(std::span<char> bytes) : std::istream(static_cast<std::streambuf*>(this)) {
+    setg(bytes.data(), bytes.data(), bytes.data() + bytes.size());
   }
-
- private:
-  ObjReader& reader_;
 };
 
 }  // namespace
@@ -228,6 +249,10 @@ SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits) 
   draft.limits = limits;
   ObjReader reader(file, draft);
   std::vector<std::byte> bytes = readFile(file, kMaxSceneFileBytes);
+  const std::span text(reinterpret_cast<char*>(bytes.data()), bytes.size());
+  joinContinuedLines(text);
+  const ObjOutline outline = readOutline(text);
+  for (const std::string& names : outline.libraries) reader.readLibraries(names);
 
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = [](void* user, double x, double y, double z, double) { readerOf(user).addPosition({x, y, z}); };
@@ -237,12 +262,15 @@ SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits) 
     readerOf(user).addFace({indices, static_cast<std::size_t>(count)});
   };
   callbacks.usemtl_cb = [](void* user, const char* name, int) { readerOf(user).useMaterial(name); };
-  LibraryHook libraries(reader);
-  ByteStream stream(bytes);
+  ByteStream stream(text);
   std::string warnings, errors;
-  tinyobj::LoadObjWithCallback(stream, callbacks, &reader, &libraries, &warnings, &errors);
-  if (!errors.empty()) throw InputError(draft.name, errors.substr(0, errors.find('\n')) + "; export the file again");
+  tinyobj::LoadObjWithCallback(stream, callbacks, &reader, nullptr, &warnings, &errors);
+  if (!errors.empty())
+    throw InputError(draft.name, printable(errors.substr(0, errors.find('\n'))) + "; export the file again");
   reader.finish();
+  const auto isFlat = [](const Part& part) { return part.normals.empty(); };
+  if (outline.hasSmoothingGroups && std::any_of(draft.parts.begin(), draft.parts.end(), isFlat))
+    warnOnce(draft.scene, "smoothing groups are not read; faces without normals are flat");
   return draft;
 }
 

@@ -2,9 +2,11 @@
 
 #include "renderer/base/error.h"
 #include "renderer/scene/decode_texels.h"
+#include "renderer/scene/obj_lines.h"
 #include "renderer/scene/scene_draft.h"
 
 #include <algorithm>
+#include <sstream>
 
 // Debian builds the library for float and for double. Positions far from zero need double.
 #define TINYOBJLOADER_USE_DOUBLE
@@ -16,16 +18,20 @@ namespace {
 /// The pictures of one MTL file, each read once and decoded together at the end.
 class Pictures {
  public:
-  Pictures(const SceneFolder& folder, Scene& scene) : folder_(folder), scene_(scene) {}
+  /// \param library  the MTL file, relative to `folder`
+  Pictures(const SceneFolder& folder, const std::string& library, Scene& scene)
+      : folder_(folder), beside_(std::filesystem::path(library).parent_path()), scene_(scene) {}
 
   /// The slot of a map; empty if it names no file, and with a warning if the file is missing.
-  TextureSlot slot(std::string reference, bool clamp) {
+  TextureSlot slot(std::string reference, const tinyobj::texture_option_t& options) {
     TextureSlot slot;
     if (reference.empty()) return slot;
     std::replace(reference.begin(), reference.end(), '\\', '/');  // as programs on Windows write it
+    if (const std::string beside = (beside_ / reference).string(); std::filesystem::exists(folder_.resolve(beside)))
+      reference = beside;
     const std::filesystem::path file = folder_.resolve(reference);
     if (!std::filesystem::exists(file)) {
-      warnOnce(scene_, reference.substr(0, 80) + " is missing; its material is shown without it");
+      warnOnce(scene_, printable(reference) + " is missing; its material is shown without it");
       return slot;
     }
     const auto [entry, isNew] = index_.try_emplace(file.string(), files_.size());
@@ -33,9 +39,15 @@ class Pictures {
       files_.push_back(folder_.read(reference));
       names_.push_back(file.filename().string());
     }
-    const Wrap wrap = clamp ? Wrap::kClamp : Wrap::kRepeat;
+    const Wrap wrap = options.clamp ? Wrap::kClamp : Wrap::kRepeat;
     slot.texture = TextureId{static_cast<std::uint32_t>(scene_.textures.size())};
     scene_.textures.push_back({TexelsId{static_cast<std::uint32_t>(scene_.texels.size() + entry->second)}, wrap, wrap});
+    // uv' = scale · uv + offset where v counts from the bottom; here it counts from the top.
+    const Vec2 scale(options.scale[0], options.scale[1]), offset(options.origin_offset[0], options.origin_offset[1]);
+    if (!std::isfinite(scale.x + scale.y + offset.x + offset.y))
+      throw InputError(beside_ / reference, "-s and -o must be finite; export the file again");
+    slot.uvLinear = glm::mat2(scale.x, 0, 0, scale.y);
+    slot.uvOffset = {offset.x, 1 - scale.y - offset.y};
     return slot;
   }
 
@@ -50,6 +62,7 @@ class Pictures {
 
  private:
   const SceneFolder& folder_;
+  std::filesystem::path beside_;
   Scene& scene_;
   std::map<std::string, std::size_t> index_;
   std::vector<std::vector<std::byte>> files_;
@@ -85,13 +98,13 @@ Material materialOf(const tinyobj::material_t& source, const std::string& place,
   material.name = source.name;
   material.metallic = 0;
   material.baseColor = {colorOf(source.diffuse), clamped(source.dissolve, 0, 1)};
-  material.setSlot(TextureUse::kBaseColor, pictures.slot(source.diffuse_texname, source.diffuse_texopt.clamp));
+  material.setSlot(TextureUse::kBaseColor, pictures.slot(source.diffuse_texname, source.diffuse_texopt));
   // Illumination model 1 has no highlight whatever Ks says. Ks of 1 is a dielectric's full reflection, 4 % at normal
   // incidence.
   material.specular = source.illum == 1 ? 0.0f : maxComponent(colorOf(source.specular));
   material.roughness = material.specular > 0 ? roughnessOf(source.shininess) : 1.0f;
   material.emission = emissionOf(source, place);
-  const TextureSlot picture = pictures.slot(source.emissive_texname, source.emissive_texopt.clamp);
+  const TextureSlot picture = pictures.slot(source.emissive_texname, source.emissive_texopt);
   material.setSlot(TextureUse::kEmission, picture);
   if (picture.texture && isBlack(material.emission)) material.emission = Vec3(1);
   if (material.baseColor.w < 1) material.alphaMode = AlphaMode::kBlend;
@@ -101,24 +114,24 @@ Material materialOf(const tinyobj::material_t& source, const std::string& place,
 
 }  // namespace
 
-ByteStream::ByteStream(std::vector<std::byte>& bytes) : std::istream(static_cast<std::streambuf*>(this)) {
-  char* begin = reinterpret_cast<char*>(bytes.data());
-  setg(begin, begin, begin + bytes.size());
-}
-
-std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, std::vector<std::byte> bytes,
-                                          const std::string& name, std::uint64_t maxTextureBytes, Scene& scene) {
+std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, const std::string& library,
+                                          std::uint64_t maxTextureBytes, Scene& scene) {
+  std::vector<std::byte> bytes = folder.read(library);
+  const std::span text(reinterpret_cast<char*>(bytes.data()), bytes.size());
+  joinContinuedLines(text);
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
-  ByteStream stream(bytes);
+  std::istringstream stream(plainMtl({text.data(), text.size()}));
   tinyobj::LoadMtl(&indices, &materials, &stream, &warnings, &errors);
-  if (!errors.empty()) throw InputError(name, errors.substr(0, errors.find('\n')) + "; export the file again");
+  const std::string name = std::filesystem::path(library).filename().string();
+  if (!errors.empty())
+    throw InputError(name, printable(errors.substr(0, errors.find('\n'))) + "; export the file again");
 
-  Pictures pictures(folder, scene);
+  Pictures pictures(folder, library, scene);
   const std::size_t first = scene.materials.size();
   for (const tinyobj::material_t& source : materials) {
-    scene.materials.push_back(materialOf(source, name + ": " + source.name.substr(0, 80), pictures));
+    scene.materials.push_back(materialOf(source, name + ": " + printable(source.name), pictures));
   }
   pictures.decode(maxTextureBytes);
   std::map<std::string, MaterialId> ids;

@@ -23,6 +23,11 @@ void Material::setSlot(TextureUse use, const TextureSlot& slot) {
   slots = std::make_shared<const TextureSlots>(changed);
 }
 
+glm::dvec3 facetNormal(const Mesh& mesh, const Triangle& triangle) {
+  const glm::dvec3 a(mesh.positions[triangle.x]), b(mesh.positions[triangle.y]), c(mesh.positions[triangle.z]);
+  return glm::cross(b - a, c - a);
+}
+
 std::size_t Scene::triangleCount() const {
   std::size_t count = 0;
   for (const Mesh& mesh : meshes) count += mesh.triangles.size();

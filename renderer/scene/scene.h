@@ -33,7 +33,6 @@ constexpr std::size_t indexOf(Id id) {
 
 enum class Wrap : std::uint8_t { kRepeat, kClamp, kMirror };
 
-/// What a texture's texels mean; they are stored as the file has them.
 /// A sampler over shared texels. Lookups: texture.h.
 struct Texture {
   TexelsId texels{};
@@ -112,6 +111,10 @@ struct Mesh {
   std::vector<Vec4> colors;                    ///< COLOR_0, linear; multiplies baseColor
   std::vector<Triangle> triangles;             ///< none degenerate: every area > 0 and finite
 };
+
+/// Twice the area times the unit normal, of the rounded positions, in double: no product of two differences of floats
+/// leaves its range, so that a triangle of any size has an area unless its corners lie on a line.
+glm::dvec3 facetNormal(const Mesh& mesh, const Triangle& triangle);
 
 /// Those that a file has switched off are left out: no light here is black.
 struct PointLight {

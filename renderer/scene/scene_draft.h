@@ -23,7 +23,7 @@ struct Part {
   std::vector<Vec4> tangents;  ///< only beside normals
   std::array<std::vector<Vec2>, 2> texCoords;
   std::vector<Vec4> colors;
-  std::vector<Triangle> triangles;  ///< indices < positions.size()
+  std::vector<Triangle> triangles;  ///< indices < positions.size(), of which they use all
 };
 
 struct PartInstance {
@@ -49,8 +49,8 @@ void warnOnce(Scene& scene, const std::string& warning);
 /// True if any of the material's textures uses the given set of texture coordinates.
 bool usesTexCoords(const Material& material, std::uint8_t set);
 
-/// Writes out the instances around the scene's centre (Scene::origin), drops degenerate triangles and fills in what
-/// materials need and files leave out: texture coordinates, tangents, a camera. Parallel; the same result for any
+/// Writes out the instances around the centre of all triangles (Scene::origin), drops degenerate triangles and fills in
+/// what materials need and files leave out: texture coordinates, tangents, a camera. Parallel; the same result for any
 /// number of threads.
 /// \throws InputError if there are more than limits.maxTriangles, or a place leaves the range of a float.
 Scene flatten(SceneDraft draft);

@@ -21,14 +21,6 @@ bool hasScheme(const std::string& reference) {
                      [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
 }
 
-/// A reference as it may be shown: a hostile one is neither long nor does it hold control characters.
-std::string shown(const std::string& reference) {
-  std::string text = reference.substr(0, 80);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return '"' + text + (text.size() < reference.size() ? "…\"" : "\"");
-}
-
 bool isInside(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const auto [inFolder, inFile] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return inFolder == folder.end() && inFile != file.end();
@@ -45,7 +37,9 @@ SceneFolder::SceneFolder(const std::filesystem::path& sceneFile) : scene_(sceneF
 }
 
 std::filesystem::path SceneFolder::resolve(const std::string& reference) const {
-  const auto refuse = [&](const std::string& problem) { throw InputError(scene_ + ": " + shown(reference), problem); };
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(scene_ + ": \"" + printable(reference) + '"', problem);
+  };
   if (reference.empty()) refuse("names no file; export the scene again");
   if (hasControlCharacter(reference)) refuse("has control characters in a file name; rename the file");
   if (hasScheme(reference)) refuse("has a scheme that is not read; put the file beside the scene");

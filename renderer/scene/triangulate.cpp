@@ -38,13 +38,22 @@ double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// True if the corner at `i` of the remaining polygon can be cut off: convex, with no other corner inside.
-bool isEar(const std::vector<glm::dvec2>& points, const std::vector<std::uint32_t>& left, std::size_t i) {
+/// Twice the area of the corner at `i` of the remaining polygon; not > 0: it is no convex one.
+double cornerArea(const std::vector<glm::dvec2>& points, const std::vector<std::uint32_t>& left, std::size_t i) {
+  const std::size_t n = left.size();
+  return area(points[left[(i + n - 1) % n]], points[left[i]], points[left[(i + 1) % n]]);
+}
+
+/// True if the corner at `i` of the remaining polygon can be cut off: convex, with no other corner inside. If there are
+/// any inside, that farthest from the cut is not convex: to look at those, `hollow`, will do.
+bool isEar(const std::vector<glm::dvec2>& points, const std::vector<std::uint32_t>& left, std::size_t i,
+           const std::vector<std::uint32_t>& hollow, std::size_t& looks) {
   const std::size_t n = left.size();
   const glm::dvec2 &a = points[left[(i + n - 1) % n]], &b = points[left[i]], &c = points[left[(i + 1) % n]];
   if (!(area(a, b, c) > 0)) return false;
-  for (std::size_t k = 2; k < n - 1; ++k) {
-    const glm::dvec2& p = points[left[(i + k) % n]];
+  for (const std::uint32_t corner : hollow) {
+    ++looks;
+    const glm::dvec2& p = points[corner];
     if (p == a || p == b || p == c) continue;  // polygons with a hole touch themselves along a seam
     if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
   }
@@ -53,24 +62,38 @@ bool isEar(const std::vector<glm::dvec2>& points, const std::vector<std::uint32_
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::dvec3> polygon) {
+std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::dvec3> polygon, std::size_t& looks) {
   assert(polygon.size() >= 3);
   std::vector<std::uint32_t> left(polygon.size());
   std::iota(left.begin(), left.end(), 0u);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<glm::dvec2> points;
   if (polygon.size() > 3) points = project(polygon);
-  // Go on where the last ear was: a convex polygon then takes one look per triangle.
+  std::vector<std::uint32_t> hollow;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(cornerArea(points, left, i) > 0)) hollow.push_back(left[i]);
+  }
+  // Go on where the last ear was: a convex polygon then takes one look per triangle. What is no ear becomes one only
+  // when a corner beside it is cut off, and is not looked at before (O'Rourke 1998, section 1.4).
+  std::vector<bool> isBlocked(points.size(), false);
   std::size_t at = 1, misses = 0;
   while (left.size() > 3) {
-    const std::size_t n = left.size();
-    at %= n;
-    if (misses < n && !isEar(points, left, at)) {
+    ++looks;
+    at %= left.size();
+    const std::uint32_t corner = left[at];
+    if (misses < left.size() && (isBlocked[corner] || !isEar(points, left, at, hollow, looks))) {
+      isBlocked[corner] = true;
       ++misses, ++at;
       continue;
     }
-    triangles.push_back({left[(at + n - 1) % n], left[at], left[(at + 1) % n]});
+    const std::size_t before = (at + left.size() - 1) % left.size(), after = (at + 1) % left.size();
+    triangles.push_back({left[before], corner, left[after]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
+    std::erase(hollow, corner);
+    for (const std::size_t i : {(at + left.size() - 1) % left.size(), at % left.size()}) {
+      isBlocked[left[i]] = false;
+      if (cornerArea(points, left, i) > 0) std::erase(hollow, left[i]);
+    }
     misses = 0;
   }
   triangles.push_back({left[0], left[1], left[2]});

@@ -54,8 +54,7 @@ class GlbBuilder {
   void addPoint(const Vec3& position, const Vec3& intensity);
   /// \param axis where it shines, any length > 0
   /// \param intensity on the axis, W/sr
-  /// \param inner, outer radians
-  /// from the axis, 0 ≤ inner < outer ≤ π/2
+  /// \param inner, outer radians from the axis, 0 ≤ inner < outer ≤ π/2
   void addSpot(const Vec3& position, const Vec3& axis, const Vec3& intensity, float inner, float outer);
   /// \param irradiance W/m² across the axis
   void addDirectional(const Vec3& axis, const Vec3& irradiance);

@@ -37,7 +37,6 @@ constexpr std::array kPaints{
     PaintRow{Paint::kBrick, "brick", {0.42f, 0.18f, 0.12f}, Finish::kMatte},
     PaintRow{Paint::kSandstone, "sandstone", {0.56f, 0.46f, 0.34f}, Finish::kMatte},
     PaintRow{Paint::kConcrete, "concrete", {0.40f, 0.40f, 0.39f}, Finish::kMatte},
-    PaintRow{Paint::kDarkWall, "dark wall", {0.16f, 0.15f, 0.16f}, Finish::kMatte},
     PaintRow{Paint::kOak, "oak", {0.50f, 0.32f, 0.17f}, Finish::kMatte},
     PaintRow{Paint::kWalnut, "walnut", {0.22f, 0.12f, 0.07f}, Finish::kMatte},
     PaintRow{Paint::kStone, "stone", {0.46f, 0.44f, 0.41f}, Finish::kMatte},

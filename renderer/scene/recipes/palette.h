@@ -22,8 +22,7 @@ enum class Paint : std::uint8_t {
   kSlate,
   kBrick,
   kSandstone,
-  kConcrete,
-  kDarkWall,  // walls
+  kConcrete,  // walls
   kOak,
   kWalnut,
   kStone,

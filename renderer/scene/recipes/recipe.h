@@ -35,8 +35,8 @@ constexpr std::optional<Recipe> recipeFromName(std::string_view name) {
 
 inline constexpr std::size_t kMaxRecipeLights = 10'000'000;
 
-/// The bytes of a .glb with exactly `lights` lights (an environment, which `kinds`
-/// has inside of its file, is not counted). The same arguments give the same bytes. \pre lights ≤ kMaxRecipeLights
+/// The bytes of a .glb with exactly `lights` lights (an environment, which `kinds` has inside of its file, is not
+/// counted). The same arguments give the same bytes. \pre lights ≤ kMaxRecipeLights
 std::vector<std::byte> generateRecipe(Recipe recipe, std::size_t lights, std::uint64_t seed);
 
 }  // namespace cellcut

@@ -45,8 +45,7 @@ void furnishRoom(Palette& palette, const RoomSpace& room, Clutter clutter, std::
 /// Lamps with exactly `lights` lights, log-uniform in strength over four decades, that fill the room with about the
 /// given radiance.
 /// \param radiance  mean over the room's surfaces, W/(m² sr)
-/// \param punctual  may use a point and a
-/// spot light
+/// \param punctual  may use a point and a spot light
 void lightRoom(Palette& palette, const RoomSpace& room, std::size_t lights, float radiance, bool punctual, Rng& rng);
 
 }  // namespace cellcut

@@ -81,6 +81,23 @@ TEST(FileIo, OldFileStaysWhenTheDiskIsFull) {
   EXPECT_EQ(folder.fileCount(), 1u) << "the half-written file is still there";
 }
 
+TEST(FileIo, AsLongANameAsThereIsIsWritten) {
+  const test::TemporaryDirectory folder;
+  const std::string longest(255, 'a');
+  writeFileAtomically(folder / longest, bytesOf("x"));
+  EXPECT_EQ(contentOf(folder / longest), "x");
+  EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(FileIo, WhatIsWrittenIsWhereLinksLead) {
+  const test::TemporaryDirectory folder;
+  fs::create_symlink("below/../file", folder / "link");
+  EXPECT_EQ(writtenFile(folder / "link"), folder / "below/../file");
+  EXPECT_EQ(writtenFile(folder / "file"), folder / "file");
+  EXPECT_THROW(writtenFile("/dev/null"), InputError);
+  EXPECT_THROW(writtenFile(folder.path()), InputError);
+}
+
 TEST(FileIo, AMissingFileIsRefused) {
   const test::TemporaryDirectory folder;
   EXPECT_THAT(readingRefusal(folder / "missing"), HasSubstr("missing: does not exist; check"));

@@ -5,6 +5,7 @@
 #include "renderer/base/tone_map.h"
 #include "tests/support/bytes.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/hostile_budget.h"
 #include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
 #include "tests/support/temporary_directory.h"
@@ -150,6 +151,31 @@ TEST(ImageIo, ReadsJpeg) {
   for (const auto& pixel : image) EXPECT_EQ(glm::ivec4(pixel), glm::ivec4(128, 128, 128, 255));
 }
 
+/// The same with its scan so many times.
+std::vector<std::byte> jpegOfScans(std::size_t count) {
+  std::vector<std::byte> file = greyJpeg();
+  constexpr std::ptrdiff_t kScan = 11, kEnd = 2;
+  const std::vector<std::byte> scan(file.end() - kScan - kEnd, file.end() - kEnd);
+  for (std::size_t i = 1; i < count; ++i) file.insert(file.end() - kEnd, scan.begin(), scan.end());
+  return file;
+}
+
+TEST(ImageIo, RefusesJpegsOfMoreScansThanComponents) {
+  EXPECT_EQ(decodeImage8(jpegOfScans(4), "scans").width(), 8);
+  EXPECT_EQ(imageBytesRefusal(jpegOfScans(5)), "picture: has more than 4 JPEG scans; save it again");
+  std::vector<std::byte> progressive = jpegOfScans(129);
+  progressive[7 + 64 + 1] = std::byte{0xc2};
+  EXPECT_EQ(imageBytesRefusal(progressive), "picture: has more than 128 JPEG scans; save it again");
+  // Scans in a preview that an application's segment holds are none of the picture.
+  std::vector<std::byte> withPreview = greyJpeg();
+  const std::vector<std::byte> preview = jpegOfScans(9);
+  std::vector<std::byte> segment{std::byte{0xff}, std::byte{0xe1}, static_cast<std::byte>((preview.size() + 2) >> 8),
+                                 static_cast<std::byte>(preview.size() + 2)};
+  segment.insert(segment.end(), preview.begin(), preview.end());
+  withPreview.insert(withPreview.begin() + 2, segment.begin(), segment.end());
+  EXPECT_EQ(decodeImage8(withPreview, "preview").width(), 8);
+}
+
 TEST(ImageIo, RefusesJpegSizeThatItsBytesCannotHoldBeforeAllocating) {
   std::vector<std::byte> jpeg = greyJpeg();
   jpeg[7 + 64 + 5] = std::byte{0x3f};  // height
@@ -178,6 +204,57 @@ TEST(ImageIo, Png8RefusesChunkPastTheFileBeforeAllocating) {
   for (std::size_t header = 8; header < 12; ++header) {  // nothing of it is there but its header
     EXPECT_THAT(imageBytesRefusal(std::span(png).first(kFirstChunk + header)), HasSubstr("a PNG chunk reaches past"));
   }
+}
+
+/// A PNG of one pixel with other data in place of its own.
+std::vector<std::byte> pngOf(const std::vector<std::byte>& data) {
+  std::vector<std::byte> png = encodePng(ImageRgba8(1, 1));
+  constexpr std::ptrdiff_t kDataChunk = 33, kEndChunk = 12;
+  png.erase(png.begin() + kDataChunk + 8, png.end() - kEndChunk - 4);
+  png.insert(png.begin() + kDataChunk + 8, data.begin(), data.end());
+  for (std::size_t i = 0; i < 4; ++i) png[kDataChunk + i] = static_cast<std::byte>(data.size() >> (24 - 8 * i));
+  return png;
+}
+
+/// Deflate's shortest for so many zeros with the codes that every reader knows. Source: RFC 1951, section 3.2.6.
+std::vector<std::byte> packedZeros(std::size_t count) {
+  std::vector<std::byte> data{std::byte{0x78}, std::byte{0x01}};
+  unsigned bits = 0, used = 0;
+  const auto put = [&](std::string_view code) {
+    for (const char bit : code) {
+      bits |= static_cast<unsigned>(bit - '0') << used;
+      if (++used < 8) continue;
+      data.push_back(static_cast<std::byte>(bits));
+      bits = used = 0;
+    }
+  };
+  put("110");                                                         // the last block, fixed codes
+  put("00110000");                                                    // a zero
+  for (std::size_t i = 1; i < count; i += 258) put("1100010100000");  // 258 times the byte before
+  put("0000000");                                                     // the end
+  put("0000000");
+  data.insert(data.end(), 4, std::byte{0});  // a checksum, which nobody reads
+  return data;
+}
+
+TEST(ImageIo, RefusesPngsWhoseDataUnpackToMoreThanTheirPixels) {
+  EXPECT_EQ(decodeImage8(pngOf(packedZeros(5)), "one").width(), 1);
+  const std::vector<std::byte> bomb = pngOf(packedZeros(700'000'000));
+  const test::HostileBudget budget("bomb");
+  EXPECT_EQ(imageBytesRefusal(bomb),
+            "picture: its data are damaged or unpack to more than 1 x 1 pixels; save it again");
+}
+
+TEST(ImageIo, ReadsPngsThatPackBadly) {
+  // Long enough to be unpacked before.
+  ImageRgba8 image(300, 200);
+  Rng rng(4);
+  for (auto& pixel : image) {
+    for (int c = 0; c < 4; ++c) pixel[c] = static_cast<std::uint8_t>(rng.below(256));
+  }
+  const std::vector<std::byte> png = encodePng(image);
+  ASSERT_GT(png.size(), std::size_t{200'000});
+  EXPECT_EQ(decodeImage8(png, "noise").at(299, 199), image.at(299, 199));
 }
 
 TEST(ImageIo, Png8IgnoresWhatFollowsItsLastChunk) {

@@ -3,9 +3,11 @@
 #include "renderer/base/rng.h"
 #include "renderer/lights/lights.h"
 #include "tests/support/depth.h"
+#include "tests/support/hostile_budget.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -29,17 +31,12 @@ struct OneTriangle {
   }
 };
 
-Vec3 unitVector(Rng& rng) {
-  const float z = rng.uniform(-1, 1), azimuth = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
-
 TEST(TriangleLight, FormFactorIsItsIntegralAboveTheHorizon) {
   Rng rng(1);
   int clipped = 0;
   for (int i = 0; i < 60; ++i) {
-    const OneTriangle triangle(unitVector(rng), unitVector(rng), unitVector(rng));
-    const Vec3 p = rng.uniform(1.2f, 4) * unitVector(rng), n = unitVector(rng);
+    const OneTriangle triangle(randomUnit(rng), randomUnit(rng), randomUnit(rng));
+    const Vec3 p = rng.uniform(1.2f, 4) * randomUnit(rng), n = randomUnit(rng);
     const double expected = triangle.formFactorByQuadrature(p, n);
     // 512² midpoints: 10⁻⁵ where the horizon cuts through.
     EXPECT_NEAR(triangleFormFactor(triangle.geometry, p, n), expected, 2e-5) << i;
@@ -64,6 +61,17 @@ TEST(TriangleLight, FormFactorIsPositiveAndRightFarAway) {
     // The cube of the angle that it spans is what its area in a plane leaves out.
     EXPECT_NEAR(found / expected, 1, 1e-3) << distance;
   }
+}
+
+TEST(TriangleLight, SliversThatReachFarAwayAreSampledBySolidAngle) {
+  // A lamp of 60 m x 2 cm beside a point: by area, what a sample brings falls with the square of its distance.
+  const OneTriangle lamp({-1, 0, 3}, {-1, 0.02f, 3}, {59, 0, 3});
+  Rng rng(7);
+  const auto pdfOf = [&] {
+    return sampleTriangle(lamp.geometry, Vec3(0), Vec2(rng.uniform(), rng.uniform())).value().pdf;
+  };
+  const float pdf = pdfOf();
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(pdfOf(), pdf) << "1 / solid angle, wherever the sample is";
 }
 
 class TriangleSampling : public testing::TestWithParam<float> {};
@@ -173,6 +181,40 @@ TEST(TriangleLight, ScalesExactlyByPowersOfTwo) {
                 scaled.lights->irradiance(LightId{0}, scale * p, {0, 0, 1}));
     }
   }
+}
+
+/// Two triangles for each of these quads beside each other, which emit what the texture says.
+Scene texturedQuads(ImageRgba8 texels, int quads) {
+  Scene scene;
+  scene.texels.push_back(std::move(texels));
+  scene.textures.push_back({TexelsId{0}});
+  Material material = emitter(Vec3(1, 0, 0), true);
+  material.setSlot(TextureUse::kEmission, {.texture = TextureId{0}});
+  const MaterialId id = addMaterial(scene, material);
+  for (int i = 0; i < quads; ++i) addQuad(scene, id, Vec3(i, 0, 0), {1, 0, 0}, {0, 1, 0});
+  finish(scene);
+  return scene;
+}
+
+TEST(TriangleLight, BlackTexturesOfAnySizeTakeNoTime) {
+  ImageRgba8 texels(4096, 4096, {0, 255, 255, 255});  // black for a material that is red
+  const Scene scene = texturedQuads(std::move(texels), 500);
+  const HostileBudget budget("black texture");
+  EXPECT_TRUE(collectTriangleLights(scene).empty());
+}
+
+TEST(TriangleLight, AreThoseWithALitTexel) {
+  ImageRgba8 texels(256, 256, {0, 0, 0, 255});
+  texels.at(200, 20) = {255, 0, 0, 255};
+  Scene scene = texturedQuads(texels, 2);
+  const auto turn = [&](std::size_t mesh, Vec2 offset) {
+    for (Vec2& uv : scene.meshes[mesh].texCoords[0]) uv = 0.25f * uv + offset;
+  };
+  turn(0, {0.1f, 0.1f});
+  turn(1, {0.7f, 0.01f});
+  const std::vector<TriangleLight> lights = collectTriangleLights(scene);
+  ASSERT_FALSE(lights.empty());
+  for (const TriangleLight& light : lights) EXPECT_EQ(light.mesh, MeshId{1});
 }
 
 }  // namespace

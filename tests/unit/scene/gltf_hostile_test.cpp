@@ -8,6 +8,8 @@
 #include "tests/support/temporary_directory.h"
 
 #include <functional>
+#include <numeric>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -207,6 +209,83 @@ TEST_F(HostileGltf, RefusesInstancesWithoutEnd) {
   const std::size_t mesh = file.addMesh(primitive);
   for (int i = 0; i < 200; ++i) file.addRoot({{"mesh", mesh}});
   EXPECT_THAT(refusalOf(file.glb()), HasSubstr("instances"));
+}
+
+/// As many nodes, each with a mesh of as many of these primitives.
+GltfBuilder nodesTimesPrimitives(GltfBuilder file, std::size_t count, const Json& primitive) {
+  file.json["meshes"] = {{{"primitives", Json(count, primitive)}}};
+  file.json["nodes"] = Json(count, {{"mesh", 0}});
+  std::vector<std::size_t> roots(count);
+  std::iota(roots.begin(), roots.end(), std::size_t{0});
+  file.json["scenes"][0]["nodes"] = roots;
+  return file;
+}
+
+TEST_F(HostileGltf, PrimitivesWithoutTrianglesTakeNothingWhereverTheyAre) {
+  const Json primitive = {{"attributes", Json::object()}, {"mode", 0}};
+  const auto path = nodesTimesPrimitives(GltfBuilder(), 5000, primitive).writeGltf(folder / "test.gltf");
+  const test::HostileBudget budget("nodes times primitives");
+  const Scene scene = loadScene(path);
+  EXPECT_EQ(scene.triangleCount(), 0u);
+  EXPECT_EQ(scene.counts.instances, 5000u);
+  EXPECT_THAT(scene.warnings, testing::ElementsAre("points and lines are not shown"));
+}
+
+TEST_F(HostileGltf, RefusesMorePlacedPrimitivesThanMemoryHolds) {
+  GltfBuilder file;
+  const Json primitive = file.primitive({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const auto path = nodesTimesPrimitives(file, 4097, primitive).writeGlb(folder / "test.glb");
+  const test::HostileBudget budget("nodes times primitives");
+  EXPECT_THAT(refusalOf(path),
+              HasSubstr("test.glb: more than 16777216 primitives with all instances written out; join"));
+}
+
+TEST_F(HostileGltf, CornersOfPointsAreNotRead) {
+  GltfBuilder file;
+  const std::size_t corners =
+      file.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", std::size_t{1} << 22}});
+  const Json primitive = {{"attributes", {{"POSITION", corners}}}, {"mode", 0}};
+  file.addRoot({{"mesh", file.add("meshes", {{"primitives", Json(1000, primitive)}})}});
+  const auto path = file.writeGltf(folder / "test.gltf");
+  const test::HostileBudget budget("points");
+  EXPECT_EQ(loadScene(path).triangleCount(), 0u);
+}
+
+TEST_F(HostileGltf, TwentyThousandNodesOfOneCameraHaveNamesOfTheirOwn) {
+  GltfBuilder file;
+  file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+  file.addRoot({{"camera", 0}, {"name", "camera.3"}});
+  for (int i = 1; i < 20'000; ++i) file.addRoot({{"camera", 0}});
+  const auto path = file.writeGltf(folder / "test.gltf");
+  const test::HostileBudget budget("cameras");
+  const Scene scene = loadScene(path);
+  std::set<std::string> names;
+  for (const Camera& camera : scene.cameras) names.insert(camera.name);
+  EXPECT_EQ(names.size(), 20'000u);
+  EXPECT_EQ(scene.cameras[3].name, "camera.4");
+}
+
+TEST_F(HostileGltf, NamesAreShownWithoutControlCharactersAndHalfCharacters) {
+  std::string name = "\x1b[31m\n\xc2\x9b";
+  for (int i = 0; i < 60; ++i) name += "ü";
+  std::string shown = "?[31m???";
+  for (int i = 0; i < 36; ++i) shown += "ü";
+  shown += "…";
+  EXPECT_THAT(refusalOf([&](Json& j) { j["extensionsRequired"] = {name}; }), HasSubstr("the extension " + shown + ","));
+  EXPECT_THAT(refusalOf([&](Json& j) {
+                j["materials"] = {{{"name", name}, {"emissiveFactor", {-1, 0, 0}}}};
+              }),
+              HasSubstr('"' + shown + "\" emits negative light"));
+  EXPECT_THAT(
+      refusalOf([&](Json& j) {
+        j["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", name}, {"intensity", -1}}};
+        j["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+      }),
+      HasSubstr("light \"" + shown + "\" has a negative intensity"));
+  GltfBuilder file = sound();
+  file.json["extensionsUsed"] = {name};
+  EXPECT_THAT(loadScene(file.writeGltf(folder / "test.gltf")).warnings,
+              testing::ElementsAre("the extension " + shown + " is not supported and ignored"));
 }
 
 TEST_F(HostileGltf, RefusesTransformsThatAreNone) {

@@ -105,6 +105,11 @@ TEST_F(GltfLights, ThatAreSwitchedOffAreLeftOut) {
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e-45}}).pointLights.size(), 1u);
 }
 
+TEST_F(GltfLights, WarnOfARangeThatTheyDoNotKeep) {
+  EXPECT_THAT(loadLight({{"type", "point"}, {"range", 2}}).warnings, testing::ElementsAre(HasSubstr("range")));
+  EXPECT_THAT(loadLight({{"type", "point"}}).warnings, testing::IsEmpty());
+}
+
 TEST_F(GltfLights, KeepTinyAndHugePowers) {
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e-30}}).pointLights[0].intensity, Vec3(1e-30f));
   EXPECT_EQ(loadLight({{"type", "point"}, {"intensity", 1e30}}).pointLights[0].intensity, Vec3(1e30f));

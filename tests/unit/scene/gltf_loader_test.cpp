@@ -253,6 +253,43 @@ TEST_F(GltfLoader, FarFromTheOriginIsAsAtTheOrigin) {
   }
 }
 
+TEST_F(GltfLoader, AFarLightTakesNoDigitsOfTheTriangles) {
+  for (const double distance : {1e7, 1e11, 1e30}) {
+    GltfBuilder file;
+    file.addRoot({{"mesh", file.addTriangle()}});
+    file.addRoot({{"translation", {0, distance, 0}}, {"extensions", file.addLight({{"type", "point"}})}});
+    const Scene scene = load(file);
+    EXPECT_EQ(scene.origin, glm::dvec3(0.5, 0.5, 0));
+    ASSERT_EQ(scene.triangleCount(), 1u);
+    EXPECT_EQ(scene.meshes[0].positions[0], Vec3(-0.5f, -0.5f, 0));
+    EXPECT_EQ(scene.pointLights.at(0).position, Vec3(glm::dvec3(-0.5, distance - 0.5, 0)));
+    EXPECT_TRUE(scene.warnings.empty());
+  }
+}
+
+TEST_F(GltfLoader, LightsWithoutTrianglesHaveAMiddleOfTheirOwn) {
+  GltfBuilder file;
+  const Json light = file.addLight({{"type", "point"}});
+  for (const double x : {1e9, 1e9 + 1}) file.addRoot({{"translation", {x, 0, 0}}, {"extensions", light}});
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.pointLights.at(0).position, Vec3(-0.5f, 0, 0));
+  EXPECT_EQ(scene.pointLights.at(1).position, Vec3(0.5f, 0, 0));
+}
+
+TEST_F(GltfLoader, VerticesThatNoTriangleUsesDoNotMoveIt) {
+  const std::vector<glm::vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e30f, 0, 0}};
+  for (const std::vector<std::uint32_t>& indices : {std::vector<std::uint32_t>{}, {0, 1, 2}, {0, 1, 2, 3}}) {
+    GltfBuilder file;
+    auto primitive = file.primitive(positions);
+    if (!indices.empty()) primitive["indices"] = file.addAccessor(indices);
+    file.addRoot({{"mesh", file.addMesh(primitive)}});
+    const Scene scene = load(file);
+    ASSERT_EQ(scene.triangleCount(), 1u) << indices.size();
+    EXPECT_EQ(scene.meshes[0].positions.size(), 3u) << indices.size();
+    EXPECT_EQ(scene.origin, glm::dvec3(0.5, 0.5, 0)) << indices.size();
+  }
+}
+
 TEST_F(GltfLoader, WarnsWhenTheFilesOwnFloatsAreCoarse) {
   for (const float offset : {100.0f, 1e5f}) {
     GltfBuilder file;

@@ -1,5 +1,6 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/material.h"
 #include "renderer/scene/texture.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/refusal.h"
@@ -194,6 +195,44 @@ TEST_F(GltfMaterials, ComputedTangentsAreTheFilesOwnEvenWhenMirrored) {
         // The top of the picture is where +y went.
         const Vec3 bitangent = glm::cross(mesh.normals[i], tangent) * mesh.tangents[i].w;
         EXPECT_LT(glm::length(bitangent - glm::normalize(s * Vec3(0, 1, 0))), kRounding) << scale;
+      }
+    }
+  }
+}
+
+TEST_F(GltfMaterials, TangentsOfAMirroredPictureAreNotAveragedWithThoseBesideIt) {
+  // Two quads that share the edge x = 1, where u turns around.
+  GltfBuilder file = withTexture();
+  file.add("materials", {{"normalTexture", {{"index", 0}}}});
+  Json primitive = file.primitive({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}});
+  primitive["indices"] = file.addAccessor(std::vector<std::uint32_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4});
+  primitive["attributes"]["NORMAL"] = file.addAccessor(std::vector<glm::vec3>(6, glm::vec3(0, 0, 1)));
+  primitive["attributes"]["TEXCOORD_0"] =
+      file.addAccessor(std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {0, 0}});
+  primitive["material"] = 0;
+  file.addRoot({{"mesh", file.addMesh(primitive)}});
+  const Scene scene = load(file);
+  const Mesh& mesh = scene.meshes[0];
+  EXPECT_EQ(mesh.positions.size(), 8u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const float side = i < 2 ? 1.0f : -1.0f;
+    for (int corner = 0; corner < 3; ++corner)
+      EXPECT_LT(glm::length(mesh.tangents[mesh.triangles[i][corner]] - Vec4(side, 0, 0, side)), kRounding) << i;
+  }
+}
+
+TEST_F(GltfMaterials, NormalMapsBendFlatFacesAsTheyBendSmoothOnes) {
+  for (const Json& scale : {Json{1, 1, 1}, Json{-1, 1, 1}}) {
+    GltfBuilder smooth = normalMappedQuad(withTexture(), scale, false), flat = smooth;
+    flat.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
+    const Scene smoothScene = load(smooth), flatScene = load(flat);
+    for (const Vec3& towardsViewer : {Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+      for (std::uint32_t triangle = 0; triangle < 2; ++triangle) {
+        const auto normalOf = [&](const Scene& scene) {
+          return shadingNormal(scene, {&scene.meshes[0], triangle, Vec2(0.25f)}, towardsViewer);
+        };
+        EXPECT_LT(glm::length(normalOf(flatScene) - normalOf(smoothScene)), kRounding) << scale;
+        EXPECT_GT(glm::length(normalOf(flatScene) - towardsViewer), 0.1f) << scale;  // the map is one that bends
       }
     }
   }

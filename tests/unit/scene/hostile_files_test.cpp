@@ -9,6 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 #include <atomic>
+#include <fstream>
 #include <sys/stat.h>
 #include <thread>
 
@@ -81,6 +82,36 @@ TEST_F(HostileFiles, BuffersAndTexturesOfTenGigabytesAreRefusedByTheirSize) {
     EXPECT_THAT(refusalOfScene(scene),
                 testing::AllOf(StartsWith("scene.gltf: "), HasSubstr(std::string(name) + ": has 10737418240 bytes")));
   }
+}
+
+TEST_F(HostileFiles, AFileThatIsNamedByManyBuffersIsRefused) {
+  constexpr std::size_t kBytes = 4'000'000;
+  test::writeFile(folder / "corners.bin", "");
+  fs::resize_file(folder / "corners.bin", kBytes);
+  test::GltfBuilder file;
+  file.json["buffers"] = nlohmann::json(2, {{"byteLength", kBytes}, {"uri", "corners.bin"}});
+  EXPECT_EQ(refusalOfScene(file.writeGltf(folder / "scene.gltf")), "was not refused");
+  file.json["buffers"] = nlohmann::json(300, {{"byteLength", kBytes}, {"uri", "corners.bin"}});
+  file.json["buffers"][7]["uri"] = "./corners.bin";
+  EXPECT_THAT(refusalOfScene(file.writeGltf(folder / "scene.gltf")),
+              "scene.gltf: \"corners.bin\": is named by too many buffers; let their views share one");
+}
+
+TEST_F(HostileFiles, AFileThatIsNamedByManyImagesIsReadAndDecodedOnce) {
+  sceneOfThreeFiles();
+  fs::resize_file(folder / "color.png", 8'000'000);  // what comes after its end is read and of no use
+  nlohmann::json scene = nlohmann::json::parse(std::ifstream(folder / "scene.gltf"));
+  for (std::size_t i = 0; i < 1000; ++i) {
+    scene["images"].push_back({{"uri", i % 2 ? "color.png" : "./color.png"}});
+    scene["textures"].push_back({{"source", i + 1}});
+    scene["materials"].push_back({{"emissiveTexture", {{"index", i + 1}}}});
+  }
+  const fs::path file = test::writeFile(folder / "scene.gltf", scene.dump());
+  const test::HostileBudget budget("images");
+  const Scene loaded = loadScene(file);
+  EXPECT_EQ(loaded.texels.size(), 1u);
+  EXPECT_EQ(loaded.textures.size(), 1001u);
+  EXPECT_EQ(loaded.texels[0].at(0, 0), (glm::vec<4, std::uint8_t>(9, 8, 7, 255)));
 }
 
 TEST_F(HostileFiles, FifosAreRefusedAsScenes) {

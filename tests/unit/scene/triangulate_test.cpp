@@ -1,5 +1,6 @@
 #include "renderer/scene/triangulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,11 @@
 
 namespace cellcut {
 namespace {
+
+std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::dvec3> polygon) {
+  std::size_t looks = 0;
+  return cellcut::triangulate(polygon, looks);
+}
 
 /// Sum of the triangles' areas along `normal`, negative parts included, and of their absolute areas.
 std::pair<double, double> areas(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
@@ -65,6 +71,53 @@ TEST(Triangulate, GivesNMinus2TrianglesEvenOfNonsense) {
   EXPECT_EQ(triangulate(bow).size(), 2u);
   const std::vector<glm::dvec3> nan(5, glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(triangulate(nan).size(), 3u);
+}
+
+/// A band of n corners that winds 40 times around the middle.
+std::vector<glm::dvec3> spiral(std::size_t n) {
+  constexpr double kTurns = 40;
+  std::vector<glm::dvec3> band(n);
+  for (std::size_t i = 0; i < n / 2; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(n / 2);
+    const double angle = 2 * std::numbers::pi * kTurns * part, radius = 1 + kTurns * part;
+    const glm::dvec3 outwards(std::cos(angle), std::sin(angle), 0);
+    band[i] = radius * outwards;
+    band[n - 1 - i] = (radius + 0.3) * outwards;
+  }
+  return band;
+}
+
+TEST(Triangulate, TakesTheSquareOfTheCornersAtMost) {
+  constexpr std::size_t kCorners = 4096;
+  std::vector<glm::dvec3> disc, line;
+  for (std::size_t i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kCorners;
+    disc.emplace_back(std::cos(angle), std::sin(angle), 0);
+    line.emplace_back(i, 0, 0);
+  }
+  std::size_t looks = 0;
+  cellcut::triangulate(disc, looks);
+  EXPECT_LE(looks, kCorners);
+  for (const auto& polygon : {spiral(kCorners), line}) {
+    looks = 0;
+    EXPECT_EQ(cellcut::triangulate(polygon, looks).size(), kCorners - 2);
+    EXPECT_LT(looks, kCorners * kCorners);
+  }
+  const auto [sum, absolute] = areas(spiral(kCorners), {0, 0, 1});
+  EXPECT_NEAR(std::abs(sum) / absolute, 1, 1e-12);
+}
+
+TEST(Triangulate, CutsPolygonsWithAHoleAlongTheirSeam) {
+  // A square of 4 with a hole of 1; the seam is gone along twice. All starting corners.
+  const std::vector<glm::dvec3> outline{{-1, -1, 0},   {1, -1, 0},   {1, 1, 0},   {-1, 1, 0},   {-1, -1, 0},
+                                        {-.5, -.5, 0}, {-.5, .5, 0}, {.5, .5, 0}, {.5, -.5, 0}, {-.5, -.5, 0}};
+  for (std::size_t first = 0; first < outline.size(); ++first) {
+    std::vector<glm::dvec3> polygon = outline;
+    std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(first), polygon.end());
+    const auto [sum, absolute] = areas(polygon, {0, 0, 1});
+    EXPECT_DOUBLE_EQ(sum, 3) << first;
+    EXPECT_DOUBLE_EQ(absolute, 3) << first;
+  }
 }
 
 }  // namespace
