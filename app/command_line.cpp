@@ -8,6 +8,7 @@
 #include <array>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,11 @@ std::string joined(std::span<const char* const> args) {
   return line;
 }
 
+/// Nor with anything that commands a terminal: texts may quote files.
 std::string oneLine(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  return printable(text, text.size());
 }
 
 /// Help and version are no errors, though the parser reports them as such.
@@ -100,7 +102,11 @@ int parseAndRun(std::span<const char* const> args, const Console& console) {
 int runCommandLine(std::span<const char* const> args, std::ostream& out, std::ostream& err, bool terminal) {
   try {
     const Console console{out, err, terminal, joined(args)};
-    return parseAndRun(args, console);
+    const int code = parseAndRun(args, console);
+    if (code == kDone && !out.flush()) {
+      throw std::runtime_error("standard output: cannot be written to its end; make room or send it elsewhere");
+    }
+    return code;
   } catch (const InputError& error) {
     err << "cellcut: " << oneLine(error.what()) << '\n';
     return kBadInput;

@@ -1,5 +1,6 @@
 /// The verb `compare`: two pictures → their error as JSON.
 #include "app/command_line.h"
+#include "app/json_text.h"
 #include "app/numbers.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
@@ -9,7 +10,6 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace cellcut {
 namespace {
@@ -34,7 +34,7 @@ int comparePictures(const std::string& fileA, const std::string& fileB, const Co
   const nlohmann::ordered_json result = {{"mse", c.mse},      {"relmse", c.relmse}, {"epsilon", c.epsilon},
                                          {"smape", c.smape},  {"flip", c.flip},     {"flip_ldr", c.flipLdr},
                                          {"mean_a", c.meanA}, {"mean_b", c.meanB},  {"max_abs", c.maxAbs}};
-  console.out << result.dump(2) << '\n';
+  console.out << jsonText(result, 2) << '\n';
   return kDone;
 }
 

@@ -1,19 +1,24 @@
 /// The verb `generate`: recipe → scene file.
 #include "app/command_line.h"
 #include "app/numbers.h"
+#include "app/option_text.h"
 #include "app/output.h"
 #include "app/verbs.h"
 #include "renderer/base/error.h"
-#include "renderer/base/image_io.h"
 #include "renderer/scene/recipes/recipe.h"
 
 #include <memory>
-#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 
 namespace cellcut {
 namespace {
+
+constexpr const char* kGenerateExplanations = R"(
+The same arguments give the same file.
+
+Example:
+  cellcut generate rooms --lights 4000 -o rooms.glb)";
 
 struct GenerateOptions {
   Recipe recipe = Recipe::kRooms;
@@ -22,28 +27,10 @@ struct GenerateOptions {
   std::filesystem::path output;
 };
 
-Recipe parseRecipe(const std::string& name) {
-  if (const auto recipe = recipeFromName(name)) return *recipe;
-  std::string known;
-  for (const RecipeName& recipe : kRecipes) {
-    known += (known.empty() ? "" : ", ") + std::string(recipe.name);
-  }
-  throw InputError("RECIPE", "'" + name + "' is none of " + known);
-}
-
 std::filesystem::path parseOutput(const std::filesystem::path& file) {
   if (file.extension() != ".glb") throw InputError(file.string(), "a generated scene is binary glTF; use .glb");
   requireWritable(file);
   return file;
-}
-
-std::string generateHelp() {
-  std::string text = "Recipes:\n";
-  for (const RecipeName& recipe : kRecipes) {
-    text += "  " + std::string(recipe.name) + ": " + std::string(recipe.description) + "\n";
-  }
-  return text +
-         "\nThe same arguments give the same file.\n\nExample:\n  cellcut generate rooms --lights 4000 -o rooms.glb";
 }
 
 int generateScene(const GenerateOptions& options, const Console& console) {
@@ -59,22 +46,17 @@ Verb addGenerate(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("generate", "Write a procedural scene with any number of lights");
   const auto options = std::make_shared<GenerateOptions>();
   GenerateOptions& o = *options;
-  const auto add = [verb](const char* name, const char* type, const std::function<void(const std::string&)>& use,
-                          const char* description) {
-    return verb->add_option_function<std::string>(name, use, description)->type_name(type);
-  };
-  add(
-      "RECIPE", "", [&o](const std::string& t) { o.recipe = parseRecipe(t); }, "What to build; see below")
-      ->required();
+  const auto recipe = [&o](const std::string& t) { o.recipe = requireNamed(kRecipes, "RECIPE", t).recipe; };
+  addText(*verb, "RECIPE", "", recipe, "What to build; see below")->required();
   const auto lights = [&o](const std::string& t) { o.lights = parseWhole("--lights", t, {.most = kMaxRecipeLights}); };
-  add("--lights", "N", lights, "How many lights")->required();
-  add(
-      "--seed", "S", [&o](const std::string& t) { o.seed = parseWhole("--seed", t, {}); },
+  addText(*verb, "--lights", "N", lights, "How many lights")->required();
+  addText(
+      *verb, "--seed", "S", [&o](const std::string& t) { o.seed = parseWhole("--seed", t, {}); },
       "Another seed, another scene");
-  add(
-      "-o,--output", "FILE", [&o](const std::string& t) { o.output = parseOutput(t); }, "Scene file, .glb")
+  addText(
+      *verb, "-o,--output", "FILE", [&o](const std::string& t) { o.output = parseOutput(t); }, "Scene file, .glb")
       ->required();
-  verb->footer(generateHelp());
+  verb->footer("Recipes:\n" + explained(kRecipes) + kGenerateExplanations);
   return {verb, [options](const Console& console) { return generateScene(*options, console); }};
 }
 

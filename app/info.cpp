@@ -1,5 +1,6 @@
 /// The verb `info`: what is in a scene, as JSON.
 #include "app/command_line.h"
+#include "app/json_text.h"
 #include "app/options.h"
 #include "app/report.h"
 #include "app/verbs.h"
@@ -11,7 +12,6 @@
 #include <sstream>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace cellcut {
 namespace {
@@ -102,7 +102,7 @@ struct InfoOptions {
 };
 
 int showInfo(const InfoOptions& options, const Console& console) {
-  console.out << describe(loadScene(options.scene, options.load)).dump(2) << '\n';
+  console.out << jsonText(describe(loadScene(options.scene, options.load)), 2) << '\n';
   return kDone;
 }
 

@@ -1,6 +1,7 @@
 /// The verb `measure`: scene → errors, times and memory of every way to render it.
 #include "app/command_line.h"
 #include "app/interrupt.h"
+#include "app/json_text.h"
 #include "app/measure/options.h"
 #include "app/measure/progress.h"
 #include "app/measure/report.h"
@@ -8,6 +9,7 @@
 #include "app/measure/scene_hash.h"
 #include "app/measure/summary.h"
 #include "app/numbers.h"
+#include "app/option_text.h"
 #include "app/output.h"
 #include "app/progress.h"
 #include "app/verbs.h"
@@ -30,13 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string measureHelp() {
-  std::string text = "Strategies:\n";
-  for (const StrategyName& s : kStrategies)
-    text += "  " + std::string(s.name) + ": " + std::string(s.description) + "\n";
-  text += "\nParameters of --sweep:\n ";
-  for (const std::string_view name : kSweepNames) text += " " + std::string(name);
-  return text + R"(
-(max-depth of every strategy, the others of those with cuts; quality: preview, balanced, accurate)
+  return explainSettingOptions() + "\nParameters of --sweep:\n  " + joinedNames(kSweepNames) + R"(
+(max-depth of every strategy, the others of those with cuts)
 
 Run 1 of every strategy comes first, then run 2 of every one: a machine that slows down favours none. Errors are
 taken against the reference after 1, 2, 4, 8, ... passes and the last, and between them interpolated on logarithmic
@@ -118,15 +115,13 @@ LightCounts lightCounts(const Scene& scene) {
 // ---- files
 
 void writeResults(const Work& work) {
-  const std::string json = resultsJson(work.results, work.options).dump(1) + "\n";
-  writeBytes(work.options.folder / "results.json", std::as_bytes(std::span(json)));
-  const std::string csv = toCsv(work.results, summaryOf(work.results, work.seconds()));
-  writeBytes(work.options.folder / "results.csv", std::as_bytes(std::span(csv)));
+  writeText(work.options.folder / "results.json", jsonText(resultsJson(work.results, work.options), 1) + "\n");
+  writeText(work.options.folder / "results.csv", toCsv(work.results, summaryOf(work.results, work.seconds())));
 }
 
 void writeReport(const Work& work) {
-  const std::string page = reportPage(resultsJson(work.results, work.options), work.options.folder);
-  writeBytes(work.options.folder / "report.html", std::as_bytes(std::span(page)));
+  writeText(work.options.folder / "report.html",
+            reportPage(resultsJson(work.results, work.options), work.options.folder));
 }
 
 /// The same picture as it is and as a person sees it.
@@ -182,8 +177,8 @@ bool prepareCase(Work& work, const Scene& scene, std::size_t index) {
   if (work.options.reference) {
     record.reference = readReference(*work.options.reference, settings);
     if (work.options.runs < 2) {
-      work.console.err << "cellcut: warning: with a single run nothing is known of the error of "
-                       << work.options.reference->string() << "; below it no error can be measured\n";
+      work.console.warn("with a single run nothing is known of the error of " + work.options.reference->string() +
+                        "; below it no error can be measured");
     }
   } else {
     record.reference = madeReference(work, scene, index);
@@ -304,6 +299,7 @@ int measure(const MeasureOptions& options, const Console& console) {
   film.auxiliary = false;
   requireMemory(film);
   prepareFolder(options);
+  const tbb::global_control threads = allowThreads(film);
   const InterruptRequest interrupt;
   Work work{options, console, interrupt.requested(), MeasureProgress(console.err, console.terminal), {}};
   MeasureResults& results = work.results;
@@ -314,7 +310,7 @@ int measure(const MeasureOptions& options, const Console& console) {
   for (std::size_t i = 0; i < results.cases.size(); ++i) {
     const Scene& scene = scenes.of(results.plan.cases[i]);
     findCamera(scene, options.picture.camera);
-    for (const std::string& warning : scene.warnings) console.err << "cellcut: warning: " << warning << '\n';
+    for (const std::string& warning : scene.warnings) console.warn(warning);
     results.cases[i].sceneHash = hashOfScene(scene);
     results.cases[i].lights = lightCounts(scene);
   }

@@ -1,35 +1,38 @@
 #include "app/options.h"
 
 #include "app/numbers.h"
+#include "app/option_text.h"
 #include "renderer/base/error.h"
+#include "renderer/base/exact_number.h"
 #include "renderer/measure/quality_choice.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <functional>
-#include <numbers>
 #include <sstream>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <oneapi/tbb/info.h>
 
 namespace cellcut {
 namespace {
 
 constexpr std::string_view kAutoQuality = "auto";
 
-/// An option whose text goes through a function of ours: the parser's own conversions read "010" as eight and "1e3x" as
-/// a thousand.
-CLI::Option* addText(CLI::App& verb, const std::string& name, const std::string& type,
-                     const std::function<void(const std::string&)>& use, const std::string& description) {
-  return verb.add_option_function<std::string>(name, use, description)->type_name(type);
-}
+constexpr const char* kNoiseExplanation = R"(
+Noise: rendering stops when the root of relMSE (see compare) against the unknown truth is below REL with 97 %, as far
+as the samples tell. It is looked at after 16, 20, 25, 32, 40, 50, 64, ... passes.
+)";
+
+constexpr const char* kBlenderExplanation = R"(
+Blender's exporter multiplies point, spot and directional lights by 683 (lumen per watt) and emissive surfaces not:
+--punctual-scale blender undoes it.
+)";
 
 PixelSampling parseSampler(const std::string& name) {
-  if (name == "sobol") return PixelSampling::kSobol;
-  if (name == "independent") return PixelSampling::kIndependent;
-  throw InputError("--sampler", "'" + name + "' is none of sobol, independent");
+  return requireNamed(std::array{PixelSampling::kSobol, PixelSampling::kIndependent}, "--sampler", name);
 }
 
 double parsePunctualScale(const std::string& text) {
@@ -64,18 +67,15 @@ void addFiles(CLI::App& verb, RenderOptions& o) {
   addText(verb, "--report", "FILE", report, "Write a JSON report of what was done");
 }
 
-void addStopRule(CLI::App& verb, StopRule& stop) {
+void addStopRule(CLI::App& verb, std::optional<StopRule>& stop) {
   const auto spp = [&stop](const std::string& t) {
-    stop.kind = StopRule::Kind::kPasses;
-    stop.passes = parseWhole("--spp", t, {.least = 1, .most = kMaxPasses});
+    stop = {.kind = StopRule::Kind::kPasses, .passes = parseWhole("--spp", t, {.least = 1, .most = kMaxPasses})};
   };
   const auto time = [&stop](const std::string& t) {
-    stop.kind = StopRule::Kind::kSeconds;
-    stop.seconds = parseReal("--time", t, {.least = 0, .leastExcluded = true});
+    stop = {.kind = StopRule::Kind::kSeconds, .seconds = parseReal("--time", t, {.least = 0, .leastExcluded = true})};
   };
   const auto noise = [&stop](const std::string& t) {
-    stop.kind = StopRule::Kind::kNoise;
-    stop.noise = parseReal("--noise", t, {.least = 0, .leastExcluded = true});
+    stop = {.kind = StopRule::Kind::kNoise, .noise = parseReal("--noise", t, {.least = 0, .leastExcluded = true})};
   };
   CLI::Option* sppOption =
       addText(verb, "--spp", "N", spp, "Stop after N samples per pixel (default 64; the viewer goes on)");
@@ -168,7 +168,7 @@ void addLoadLimits(CLI::App& verb, LoadLimits& limits) {
   addText(
       verb, "--max-triangles", "N",
       [&limits](const std::string& t) {
-        limits.maxTriangles = parseWhole("--max-triangles", t, {.most = kMostTriangles});
+        limits.maxTriangles = parseWhole("--max-triangles", t, {.most = kMaxTriangles});
       },
       "Refuse scenes with more, instances written out (default " + std::to_string(limits.maxTriangles) + ")");
   addText(
@@ -212,32 +212,15 @@ std::string describeCameras(const Scene& scene) {
 }  // namespace
 
 Strategy parseStrategy(const std::string& option, const std::string& name) {
-  if (const auto strategy = strategyFromName(name)) return *strategy;
-  std::string known;
-  for (const StrategyName& s : kStrategies) known += (known.empty() ? "" : ", ") + std::string(s.name);
-  throw InputError(option, "'" + name + "' is none of " + known);
+  return requireNamed(kStrategies, option, name).strategy;
 }
 
 InCluster parseInCluster(const std::string& option, const std::string& name) {
-  if (name == "intensity") return InCluster::kIntensity;
-  if (name == "descent") return InCluster::kDescent;
-  throw InputError(option, "'" + name + "' is none of intensity, descent");
+  return requireNamed(std::array{InCluster::kIntensity, InCluster::kDescent}, option, name);
 }
 
-const Quality& parseQuality(const std::string& option, const std::string& name, std::string_view alsoKnown) {
-  std::string known(alsoKnown);
-  for (const Quality& q : kQualities) {
-    if (q.name == name) return q;
-    known += (known.empty() ? "" : ", ") + std::string(q.name);
-  }
-  throw InputError(option, "'" + name + "' is none of " + known);
-}
-
-std::string pinningOptions(const SamplerSettings& s) {
-  std::array<char, 32> threshold{};  // the shortest that is read back as the same number
-  char* const end = std::to_chars(threshold.data(), threshold.data() + threshold.size(), s.threshold).ptr;
-  return "--threshold " + std::string(threshold.data(), end) + " --max-cut " + std::to_string(s.maxCut) +
-         " --grid-resolution " + std::to_string(s.gridResolution) + " --in-cluster " + std::string(nameOf(s.inCluster));
+Quality parseQuality(const std::string& option, const std::string& name, std::string_view alsoKnown) {
+  return requireNamed(kQualities, option, name, alsoKnown);
 }
 
 float parseThreshold(const std::string& option, const std::string& text) {
@@ -254,6 +237,11 @@ int parseGridResolution(const std::string& option, const std::string& text) {
 
 int parseMaxDepth(const std::string& option, const std::string& text) {
   return static_cast<int>(parseWhole(option, text, {.most = kMaxDepthLimit}));
+}
+
+std::string pinningOptions(const SamplerSettings& s) {
+  return "--threshold " + exactNumber(s.threshold) + " --max-cut " + std::to_string(s.maxCut) + " --grid-resolution " +
+         std::to_string(s.gridResolution) + " --in-cluster " + std::string(nameOf(s.inCluster));
 }
 
 namespace {
@@ -285,10 +273,22 @@ void addSettingOptions(CLI::App& verb, RenderOptions& options) {
   addSettings(verb, options, false);
 }
 
+std::string explainPictureOptions() {
+  return explainSettingOptions() + kNoiseExplanation;
+}
+
+std::string explainSettingOptions() {
+  return "Strategies:\n" + explained(kStrategies) + "\nQualities:\n" + explained(kQualities) + kBlenderExplanation;
+}
+
+double installedMemory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 void requireMemory(const RenderSettings& settings) {
   const double pixels = static_cast<double>(settings.width) * settings.height;
   const double needed = pixels * static_cast<double>(Film::bytesPerPixel(settings.auxiliary));
-  const double installed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double installed = installedMemory();
   if (needed <= installed) return;
   std::ostringstream problem;
   problem << settings.width << "x" << settings.height << " pixels take " << std::llround(needed / 1e9)
@@ -307,6 +307,15 @@ std::size_t findCamera(const Scene& scene, const std::string& nameOrIndex) {
   const auto [stop, error] = std::from_chars(nameOrIndex.data(), end, index);
   if (error == std::errc{} && stop == end && index < scene.cameras.size()) return index;
   throw InputError("--camera", "the scene has no '" + nameOrIndex + "'; it has " + describeCameras(scene));
+}
+
+std::vector<NamedFile> inputsOf(const RenderOptions& options) {
+  return {{"SCENE", options.scene}, {"--environment", options.environment.file.value_or("")}};
+}
+
+tbb::global_control allowThreads(const RenderSettings& settings) {
+  const auto cores = static_cast<std::size_t>(tbb::info::default_concurrency());
+  return {tbb::global_control::max_allowed_parallelism, std::max(cores, static_cast<std::size_t>(settings.threads))};
 }
 
 Scene loadWithOptions(const RenderOptions& options) {

@@ -2,7 +2,6 @@
 
 #include "renderer/base/error.h"
 
-#include <algorithm>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -12,13 +11,7 @@
 namespace cellcut {
 namespace {
 
-/// Lower-case extension with its dot.
-std::string extensionOf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
+namespace fs = std::filesystem;
 
 std::optional<PictureKind> kindFromExtension(const std::string& extension) {
   if (extension == ".exr") return PictureKind::kExr;
@@ -44,28 +37,48 @@ void writeOrFail(const Write& write) {
   }
 }
 
+/// Files that are still to come are told apart by their names.
+bool isSame(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;  // what cannot be looked at is refused when it is read or written
+  const auto whole = [&](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file, ignored), ignored); };
+  return fs::equivalent(a, b, ignored) || whole(a) == whole(b);
+}
+
 }  // namespace
 
-bool isWritable(const std::filesystem::path& folder) {
+bool isWritable(const fs::path& folder) {
   return access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-void requireWritable(const std::filesystem::path& file) {
-  std::error_code ignored;  // what cannot be looked at fails the tests below
-  if (!file.has_filename() || std::filesystem::is_directory(file, ignored)) {
-    throw InputError(file.string(), "is a folder; name a file in it");
-  }
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, ignored)) {
-    throw InputError(file.string(), "its folder does not exist; create it first");
+void requireWritable(const fs::path& file) {
+  if (!file.has_filename()) throw InputError(file.string(), "is a folder; name a file in it");
+  const fs::path written = writtenFile(file);
+  const fs::path folder = written.has_parent_path() ? written.parent_path() : fs::path(".");
+  std::error_code ignored;  // what cannot be looked at is none
+  if (!fs::is_directory(folder, ignored)) {
+    throw InputError(written.string(), "its folder does not exist; create it first");
   }
   if (!isWritable(folder)) {
-    throw InputError(file.string(), "its folder cannot be written to; choose another or change its permissions");
+    throw InputError(written.string(), "its folder cannot be written to; choose another or change its permissions");
   }
 }
 
-Output checkedOutput(const std::filesystem::path& file) {
-  const auto kind = kindFromExtension(extensionOf(file));
+void requireDistinct(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs) {
+  std::vector<NamedFile> others = inputs;
+  for (const NamedFile& output : outputs) {
+    if (output.file.empty()) continue;
+    const fs::path written = writtenFile(output.file);
+    for (const NamedFile& other : others) {
+      if (other.file.empty() || !isSame(written, other.file)) continue;
+      throw InputError(output.option, "'" + output.file.string() + "' is the file of " + other.option +
+                                          " too and would replace it; name another");
+    }
+    others.push_back({output.option, written});
+  }
+}
+
+Output checkedOutput(const fs::path& file) {
+  const auto kind = kindFromExtension(lowerExtension(file));
   if (!kind) throw InputError(file.string(), "no known kind of picture; use .exr, .pfm or .png");
   requireWritable(file);
   return {file, *kind};
@@ -76,28 +89,33 @@ void writePicture(const Output& output, const Film& film, std::map<std::string, 
   writeOrFail([&] {
     LayeredImage layers = film.layers();
     layers.metadata = std::move(metadata);
-    writeExr(output.file, layers);
+    writeExr(writtenFile(output.file), layers);
   });
 }
 
 void writePicture(const Output& output, const ImageRgb& picture, std::map<std::string, std::string> metadata) {
   writeOrFail([&] {
+    const fs::path file = writtenFile(output.file);
     switch (output.kind) {
       case PictureKind::kExr:
-        writeExr(output.file, oneLayer(picture, std::move(metadata)));
+        writeExr(file, oneLayer(picture, std::move(metadata)));
         break;
       case PictureKind::kPfm:
-        writePfm(output.file, picture);
+        writePfm(file, picture);
         break;
       case PictureKind::kPng:
-        writePng(output.file, picture);
+        writePng(file, picture);
         break;
     }
   });
 }
 
-void writeBytes(const std::filesystem::path& file, std::span<const std::byte> bytes) {
-  writeOrFail([&] { writeFileAtomically(file, bytes); });
+void writeBytes(const fs::path& file, std::span<const std::byte> bytes) {
+  writeOrFail([&] { writeFileAtomically(writtenFile(file), bytes); });
+}
+
+void writeText(const fs::path& file, std::string_view text) {
+  writeBytes(file, std::as_bytes(std::span(text)));
 }
 
 }  // namespace cellcut

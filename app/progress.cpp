@@ -7,9 +7,8 @@
 namespace cellcut {
 namespace {
 
-constexpr double kTerminalInterval = 0.1;  // s
-constexpr double kLogInterval = 2;         // s
-constexpr int kBarWidth = 24;              // with the numbers behind it the line stays under 80 columns
+constexpr double kLogInterval = 2;  // s
+constexpr int kBarWidth = 24;       // with the numbers behind it the line stays under 80 columns
 
 /// printf into a string; every text here is far shorter than the buffer.
 template <class... Values>
@@ -47,6 +46,15 @@ std::string formatProgress(const ProgressState& state) {
   return text + format(", %.2f Mray/s", state.raysPerSecond * 1e-6);
 }
 
+void drawLine(std::ostream& stream, bool terminal, const std::string& text) {
+  constexpr const char* kToLineStart = "\r\x1b[K";  // ECMA-48 EL: the old line may be longer than the new one
+  if (terminal) {
+    stream << kToLineStart << text << std::flush;
+  } else {
+    stream << text << std::endl;
+  }
+}
+
 void Progress::update(const ProgressState& state) {
   const double interval = terminal_ ? kTerminalInterval : kLogInterval;
   if (lastDrawn_.value_or(0) + interval > state.seconds) return;
@@ -59,12 +67,7 @@ void Progress::finish(const ProgressState& state) {
 }
 
 void Progress::draw(const ProgressState& state) {
-  constexpr const char* toLineStart = "\r\x1b[K";  // ECMA-48 EL: the old line may be longer than the new one
-  if (terminal_) {
-    stream_ << toLineStart << bar(state.doneShare) << formatProgress(state) << std::flush;
-  } else {
-    stream_ << formatProgress(state) << std::endl;
-  }
+  drawLine(stream_, terminal_, (terminal_ ? bar(state.doneShare) : "") + formatProgress(state));
   lastDrawn_ = state.seconds;
 }
 

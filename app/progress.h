@@ -25,6 +25,12 @@ std::string formatDuration(double seconds);
 /// "12 spp, 3.2 s, about 13.6 s left, 4.20 Mray/s"
 std::string formatProgress(const ProgressState& state);
 
+/// Between two drawings of a line on a terminal.
+inline constexpr double kTerminalInterval = 0.1;  // s
+
+/// Draws over the line of a terminal; elsewhere a line of its own.
+void drawLine(std::ostream& stream, bool terminal, const std::string& text);
+
 /// On a terminal one line with a bar, redrawn at most ten times a second; elsewhere (a log) a line every two seconds at
 /// most. Either way the last state is shown by finish().
 class Progress {

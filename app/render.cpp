@@ -1,10 +1,10 @@
 /// The verb `render`: scene file → picture file.
 #include "app/command_line.h"
 #include "app/interrupt.h"
+#include "app/json_text.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/verbs.h"
-#include "renderer/base/error.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/measure/quality_choice.h"
 #include "renderer/trace/noise_watch.h"
@@ -13,27 +13,19 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace cellcut {
 namespace {
 
 constexpr const char* kRenderExplanations = R"(
-Noise: rendering stops when the root of relMSE (see compare) against the unknown truth is below REL with 97 %, as far
-as the samples tell. It is looked at after 16, 20, 25, 32, 40, 50, 64, ... passes.
-
 Quality auto tries balanced, its clusters by intensity, preview and accurate on small films for up to 5 % of --time, or
 of the time that --spp will take, or for half a second with --noise. Balanced stays unless another has less relMSE ×
 seconds beyond doubt (95 %), and so it does when the rendering is too short to tell. The trials come before the seconds
 of --time and their samples are thrown away; what they take, what they measured and the options that make the same
 picture again are reported. Explicit options hold in all that is tried.
-
-Blender's exporter multiplies point, spot and directional lights by 683 (lumen per watt) and emissive surfaces not:
---punctual-scale blender undoes it.
 
 Ctrl-C discards the pass in flight and writes what has been accumulated (exit code 0, or 1 when no pass was complete);
 a second one quits at once. Exit codes: 0 done, 2 bad usage or input, 1 anything else.
@@ -44,23 +36,6 @@ Examples:
   cellcut render room.glb -o room.exr --time 600 --quality auto
   cellcut render lamp.obj -o lamp.exr --environment sky.hdr --environment-rotation 90
   cellcut render blender.glb -o direct.png --max-depth 1 --punctual-scale blender)";
-
-std::string renderHelp() {
-  std::string text = "Strategies:\n";
-  for (const StrategyName& strategy : kStrategies) {
-    text += "  " + std::string(strategy.name) + ": " + std::string(strategy.description) + "\n";
-  }
-  text += "\nQualities:\n";
-  for (const Quality& quality : kQualities) {
-    text += "  " + std::string(quality.name) + ": " + std::string(quality.description) + "\n";
-  }
-  text += "  auto: the best of some settings that are tried on the scene\n";
-  return text + kRenderExplanations;
-}
-
-void showWarnings(const Scene& scene, std::ostream& err) {
-  for (const std::string& warning : scene.warnings) err << "cellcut: warning: " << warning << '\n';
-}
 
 ProgressState progressOf(const Renderer& renderer, const StopRule& rule, const RenderState& state) {
   const RayCounts rays = renderer.rays();
@@ -110,27 +85,33 @@ void showQuality(const QualityChoice& choice, std::ostream& err) {
       << "; the same again: " << pinningOptions(choice.chosen.settings) << '\n';
 }
 
-void showOutcome(const RenderRecord& record, std::ostream& err) {
+void showOutcome(const RenderRecord& record, const Console& console) {
   const BadSamples bad = record.renderer.film().badSamples();
   if (bad.nan + bad.inf > 0) {
-    err << "cellcut: warning: " << bad.nan << " samples were NaN and " << bad.inf << " infinite; they count as black\n";
+    console.warn(std::to_string(bad.nan) + " samples were NaN and " + std::to_string(bad.inf) +
+                 " infinite; they count as black");
   }
   const auto passes = record.renderer.film().passes();
-  if (record.interrupted) err << "cellcut: interrupted; the picture holds the " << passes << " complete passes\n";
-  err << "wrote " << record.options.output.file.string() << '\n';
+  if (record.interrupted) {
+    console.err << "cellcut: interrupted; the picture holds the " << passes << " complete passes\n";
+  }
+  console.err << "wrote " << record.options.output.file.string() << '\n';
 }
 
 int renderPicture(const RenderOptions& options, const Console& console) {
+  const StopRule stop = options.stop.value_or(StopRule{});
+  requireDistinct({{"--output", options.output.file}, {"--report", options.report.value_or("")}}, inputsOf(options));
   RenderSettings settings = options.settings;
   settings.auxiliary = options.output.kind == PictureKind::kExr;
   requireMemory(settings);
 
+  const tbb::global_control threads = allowThreads(settings);
   const InterruptRequest interrupt;
   RenderTimes times;
   const Stopwatch loading;
   const Scene scene = loadWithOptions(options);
   times.load = loading.seconds();
-  showWarnings(scene, console.err);
+  for (const std::string& warning : scene.warnings) console.warn(warning);
 
   settings.camera = findCamera(scene, options.camera);
   const Stopwatch building;
@@ -139,23 +120,20 @@ int renderPicture(const RenderOptions& options, const Console& console) {
 
   std::optional<QualityChoice> quality;
   if (!options.candidates.empty()) {
-    quality = chooseQuality(renderer, options.candidates, plannedLength(options.stop), interrupt.requested());
+    quality = chooseQuality(renderer, options.candidates, plannedLength(stop), interrupt.requested());
     showQuality(*quality, console.err);
   }
 
   Progress progress(console.err, console.terminal);
-  times.render = renderPasses(renderer, options.stop, interrupt.requested(), progress);
+  times.render = renderPasses(renderer, stop, interrupt.requested(), progress);
   if (renderer.film().passes() == 0) {
     console.err << "cellcut: interrupted before the first pass was complete; nothing was written\n";
     return kFailed;
   }
   const RenderRecord record{options, scene, renderer, times, interrupt.requested(), quality ? &*quality : nullptr};
   writePicture(options.output, renderer.film(), pictureMetadata(record, console.commandLine));
-  if (options.report) {
-    const std::string report = renderReport(record).dump(2) + "\n";
-    writeBytes(*options.report, std::as_bytes(std::span(report)));
-  }
-  showOutcome(record, console.err);
+  if (options.report) writeText(*options.report, jsonText(renderReport(record), 2) + "\n");
+  showOutcome(record, console);
   return kDone;
 }
 
@@ -165,7 +143,7 @@ Verb addRender(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("render", "Render a scene to a picture");
   const auto options = std::make_shared<RenderOptions>();
   addRenderOptions(*verb, *options);
-  verb->footer(renderHelp());
+  verb->footer(explainPictureOptions() + kRenderExplanations);
   return {verb, [options](const Console& console) { return renderPicture(*options, console); }};
 }
 

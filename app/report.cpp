@@ -14,10 +14,6 @@ nlohmann::ordered_json meanColour(const ImageRgb& picture) {
   return {mean.x, mean.y, mean.z};
 }
 
-const char* nameOf(PixelSampling sampling) {
-  return sampling == PixelSampling::kSobol ? "sobol" : "independent";
-}
-
 /// Keys of what the strategy has; none of what it has not.
 void addStatistics(nlohmann::ordered_json& report, const SamplerStatistics& statistics) {
   if (const auto& grid = statistics.grid) {
@@ -119,7 +115,7 @@ std::map<std::string, std::string> pictureMetadata(const RenderRecord& record, c
       {"scene", record.options.scene.string()},
       {"camera", record.scene.cameras[settings.camera].name},
       {"strategy", std::string(nameOf(settings.strategy))},
-      {"sampler", nameOf(settings.sampling)},
+      {"sampler", std::string(nameOf(settings.sampling))},
       {"spp", std::to_string(record.renderer.film().passes())},
       {"seed", std::to_string(settings.seed)},
       {"maxDepth", std::to_string(settings.maxDepth)},

@@ -1,16 +1,18 @@
 /// The verb `screenshot`: one picture of the viewer, without a display, and its numbers as JSON.
 #include "app/command_line.h"
+#include "app/json_text.h"
 #include "app/numbers.h"
+#include "app/option_text.h"
 #include "app/report.h"
 #include "app/verbs.h"
 #include "app/viewer_options.h"
 #include "renderer/base/error.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 namespace cellcut {
 namespace {
@@ -25,6 +27,10 @@ Examples:
   cellcut screenshot room.glb -o ab.png --split cell-cut:power --no-ui)";
 
 constexpr std::uint64_t kDefaultPasses = 16;
+constexpr double kFrameSeconds = 1.0 / 60;
+// The first has the overlay and the inspector's table. ImGui lays out by the sizes of the frame before: a scroll bar comes
+// in the second, and in the third the panels have what it left of their width.
+constexpr int kOverlayFrames = 3;
 
 struct ScreenshotOptions {
   ViewerCommandLine common;
@@ -35,22 +41,6 @@ struct ScreenshotOptions {
   std::optional<std::pair<Strategy, Strategy>> split;
 };
 
-template <class Entries, class Value>
-Value named(const Entries& entries, Value (*valueOf)(const typename Entries::value_type&), const std::string& option,
-            const std::string& name) {
-  std::string known;
-  for (const auto& entry : entries) {
-    if (entry.name == name) return valueOf(entry);
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw InputError(option, "'" + name + "' is none of " + known);
-}
-
-Strategy strategyNamed(const std::string& option, const std::string& name) {
-  return named<decltype(kStrategies), Strategy>(
-      kStrategies, [](const StrategyName& s) { return s.strategy; }, option, name);
-}
-
 /// "A:B" in two halves.
 std::pair<std::string, std::string> halves(const std::string& option, const std::string& text, char separator) {
   const std::size_t at = text.find(separator);
@@ -59,46 +49,38 @@ std::pair<std::string, std::string> halves(const std::string& option, const std:
 }
 
 void addOverlayOptions(CLI::App& verb, OverlayChoice& overlay) {
-  const auto add = [&verb](const char* name, const char* type, const std::function<void(const std::string&)>& use,
-                           const char* description) {
-    verb.add_option_function<std::string>(name, use, description)->type_name(type);
-  };
-  add(
-      "--overlay", "NAME",
-      [&overlay](const std::string& t) {
-        overlay.overlay = named<decltype(kOverlays), Overlay>(
-            kOverlays, [](const OverlayName& o) { return o.overlay; }, "--overlay", t);
-      },
-      "touched, visits, cut-size, estimate, tree-depth, variance, samples, error, nan, none");
-  add(
-      "--overlay-range", "A:B",
+  addText(
+      verb, "--overlay", "NAME",
+      [&overlay](const std::string& t) { overlay.overlay = requireNamed(kOverlays, "--overlay", t).overlay; },
+      joinedNames(kOverlays));
+  addText(
+      verb, "--overlay-range", "A:B",
       [&overlay](const std::string& t) {
         const auto [a, b] = halves("--overlay-range", t, ':');
         overlay.scale.pinned = ValueRange{parseReal("--overlay-range", a, {}), parseReal("--overlay-range", b, {})};
       },
       "Colours from A to B, not from the least to the largest value");
-  add(
-      "--overlay-scale", "linear|log",
+  addText(
+      verb, "--overlay-scale", "linear|log",
       [&overlay](const std::string& t) {
-        const auto kind = scaleFromName(t);
-        if (!kind) throw InputError("--overlay-scale", "'" + t + "' is none of linear, log");
-        overlay.scale.kind = *kind;
+        overlay.scale.kind = requireNamed(std::array{ScaleKind::kLinear, ScaleKind::kLog}, "--overlay-scale", t);
       },
       "Of the colours (default linear)");
-  add(
-      "--overlay-opacity", "X",
+  addText(
+      verb, "--overlay-opacity", "X",
       [&overlay](const std::string& t) {
         overlay.opacity = static_cast<float>(parseReal("--overlay-opacity", t, {.least = 0, .most = 1}));
       },
       "0 … 1 (default 0.7)");
-  add(
-      "--colormap", "NAME",
-      [&overlay](const std::string& t) {
-        overlay.scale.colormap = named<decltype(kColormaps), Colormap>(
-            kColormaps, [](const ColormapName& c) { return c.colormap; }, "--colormap", t);
-      },
-      "viridis, turbo or magma (default viridis)");
+  addText(
+      verb, "--colormap", "NAME",
+      [&overlay](const std::string& t) { overlay.scale.colormap = requireNamed(kColormaps, "--colormap", t).colormap; },
+      joinedNames(kColormaps) + " (default viridis)");
   verb.add_flag("--grid", overlay.grid, "Wireframe of the cells that were touched");
+}
+
+std::filesystem::path numbersFile(std::filesystem::path picture) {
+  return picture.replace_extension(".json");
 }
 
 /// What the PNG shows in numbers.
@@ -129,7 +111,6 @@ nlohmann::ordered_json numbersOf(const Viewer& viewer, const OverlayChoice& choi
 
 /// Frames until the rendering has its samples.
 void renderToEnd(Viewer& viewer, Window& window, std::uint64_t passes) {
-  constexpr double kFrameSeconds = 1.0 / 60;
   viewer.frame(kFrameSeconds);
   viewer.session().waitPasses(passes);
   viewer.session().waitIdle();
@@ -138,6 +119,7 @@ void renderToEnd(Viewer& viewer, Window& window, std::uint64_t passes) {
 }
 
 int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
+  requireDistinct({{"--output", options.output}, {"--output", numbersFile(options.output)}}, inputsOf(options.common));
   const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
   const RenderSettings& settings = options.common.render.settings;
   const std::unique_ptr<Window> window =
@@ -167,12 +149,10 @@ int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
     viewer.state().pick = options.pick;
   }
   viewer.refreshOverlay();
-  for (int i = 0; i < 3; ++i) viewer.frame(1.0 / 60);
+  for (int i = 0; i < kOverlayFrames; ++i) viewer.frame(kFrameSeconds);
   writeBytes(options.output, encodePng(viewer.picture()));
-  std::filesystem::path numbers = options.output;
-  numbers.replace_extension(".json");
-  const std::string text = numbersOf(viewer, options.overlay, *snapshot).dump(2) + "\n";
-  writeBytes(numbers, std::as_bytes(std::span(text)));
+  const std::filesystem::path numbers = numbersFile(options.output);
+  writeText(numbers, jsonText(numbersOf(viewer, options.overlay, *snapshot), 2) + "\n");
   console.err << "wrote " << options.output.string() << " and " << numbers.string() << '\n';
   return kDone;
 }
@@ -184,16 +164,13 @@ Verb addScreenshot(CLI::App& program) {
   const auto options = std::make_shared<ScreenshotOptions>();
   ScreenshotOptions& o = *options;
   addViewerOptions(*verb, o.common, true);
-  const auto add = [verb](const char* name, const char* type, const std::function<void(const std::string&)>& use,
-                          const char* description) {
-    return verb->add_option_function<std::string>(name, use, description)->type_name(type);
-  };
   const auto output = [&o](const std::string& t) {
     const Output checked = checkedOutput(t);
     if (checked.kind != PictureKind::kPng) throw InputError(t, "a screenshot is a .png");
+    requireWritable(numbersFile(checked.file));
     o.output = checked.file;
   };
-  add("-o,--output", "FILE", output, "Picture, .png; numbers go to the .json beside it")->required();
+  addText(*verb, "-o,--output", "FILE", output, "Picture, .png; numbers go to the .json beside it")->required();
   verb->add_flag("--no-ui", o.noUi, "The picture and its overlay alone");
   addOverlayOptions(*verb, o.overlay);
   const auto pick = [&o](const std::string& t) {
@@ -201,13 +178,13 @@ Verb addScreenshot(CLI::App& program) {
     o.pick = glm::ivec2(static_cast<int>(parseWhole("--pick", x, {.most = kMaxPictureSide})),
                         static_cast<int>(parseWhole("--pick", y, {.most = kMaxPictureSide})));
   };
-  add("--pick", "X,Y", pick, "Inspect the cell behind that pixel of the picture");
+  addText(*verb, "--pick", "X,Y", pick, "Inspect the cell behind that pixel of the picture");
   const auto split = [&o](const std::string& t) {
     const auto [a, b] = halves("--split", t, ':');
-    o.split = std::pair(strategyNamed("--split", a), strategyNamed("--split", b));
+    o.split = std::pair(parseStrategy("--split", a), parseStrategy("--split", b));
   };
-  add("--split", "STRATEGY:STRATEGY", split, "Two strategies side by side in one picture");
-  verb->footer(kScreenshotExplanations);
+  addText(*verb, "--split", "STRATEGY:STRATEGY", split, "Two strategies side by side in one picture");
+  verb->footer(explainPictureOptions() + kScreenshotExplanations);
   return {verb, [options](const Console& console) { return takeScreenshot(*options, console); }};
 }
 

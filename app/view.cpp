@@ -1,5 +1,6 @@
 /// The verb `view`: the interactive viewer, on a display or replaying a script without one.
 #include "app/command_line.h"
+#include "app/option_text.h"
 #include "app/verbs.h"
 #include "app/viewer_options.h"
 #include "renderer/base/error.h"
@@ -46,6 +47,9 @@ int showViewer(const ViewOptions& options, const Console& console) {
   if (options.headless && !options.script) {
     throw InputError("--headless", "needs --script; for a single picture there is 'cellcut screenshot'");
   }
+  std::vector<NamedFile> inputs = inputsOf(options.common);
+  inputs.push_back({"--script", options.script.value_or("")});
+  requireDistinct({{"--record", options.record.value_or("")}}, inputs);
   std::vector<ScriptAction> actions;
   if (options.script) actions = readScript(*options.script);
   // The window first: without a display nobody waits for a large scene in vain.
@@ -81,13 +85,14 @@ Verb addView(CLI::App& program) {
   ViewOptions& o = *options;
   addViewerOptions(*verb, o.common, false);
   verb->add_flag("--headless", o.headless, "No display: draw in memory");
-  verb->add_option_function<std::string>(
-          "--script", [&o](const std::string& text) { o.script = text; }, "Replay input from FILE; see below")
-      ->type_name("FILE");
-  verb->add_option_function<std::string>(
-          "--record", [&o](const std::string& text) { o.record = text; }, "Write down what is done as such a script")
-      ->type_name("FILE");
-  verb->footer(kViewExplanations);
+  addText(
+      *verb, "--script", "FILE", [&o](const std::string& t) { o.script = t; }, "Replay input from FILE; see below");
+  const auto record = [&o](const std::string& t) {
+    requireWritable(t);
+    o.record = t;
+  };
+  addText(*verb, "--record", "FILE", record, "Write down what is done as such a script");
+  verb->footer(explainPictureOptions() + kViewExplanations);
   return {verb, [options](const Console& console) { return showViewer(*options, console); }};
 }
 

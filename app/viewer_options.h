@@ -2,13 +2,13 @@
 /// What the verbs `view` and `screenshot` share: the options of the viewer and the way from them to its state.
 #pragma once
 
-#include "app/console.h"
 #include "app/options.h"
 #include "ui/viewer/viewer.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cellcut {
 
@@ -22,6 +22,9 @@ struct ViewerCommandLine {
 
 /// SCENE, the options of a picture, --ui-scale, --reference, --gl.
 void addViewerOptions(CLI::App& verb, ViewerCommandLine& options, bool sceneRequired);
+
+/// What a viewer reads at its start, a script aside.
+std::vector<NamedFile> inputsOf(const ViewerCommandLine& options);
 
 /// The scene that the options name, or a building with 4,000 lamps.
 /// \throws InputError as loadScene()

@@ -1,22 +1,17 @@
 #include "app/measure/options.h"
 
 #include "app/numbers.h"
+#include "app/option_text.h"
 #include "renderer/base/error.h"
 
 #include <algorithm>
-#include <functional>
 
 #include <CLI/CLI.hpp>
 
 namespace cellcut {
 namespace {
 
-constexpr std::uint64_t kMostRuns = 10'000;
-
-CLI::Option* addText(CLI::App& verb, const std::string& name, const std::string& type,
-                     const std::function<void(const std::string&)>& use, const std::string& description) {
-  return verb.add_option_function<std::string>(name, use, description)->type_name(type);
-}
+constexpr std::uint64_t kMaxRuns = 10'000;
 
 std::vector<std::string> split(const std::string& option, const std::string& text) {
   std::vector<std::string> parts{""};
@@ -51,9 +46,8 @@ Sweep parseSweep(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (std::find(kSweepNames.begin(), kSweepNames.end(), name) == kSweepNames.end() || equals == std::string::npos) {
-    std::string known;
-    for (const std::string_view n : kSweepNames) known += (known.empty() ? "" : ", ") + std::string(n);
-    throw InputError("--sweep", "'" + text + "' is not of the form NAME=VALUE,VALUE with NAME one of " + known);
+    throw InputError("--sweep",
+                     "'" + text + "' is not of the form NAME=VALUE,VALUE with NAME one of " + joinedNames(kSweepNames));
   }
   Sweep sweep{name, split("--sweep", text.substr(equals + 1))};
   for (const std::string& value : sweep.values) requireValue(name, value);
@@ -63,7 +57,7 @@ Sweep parseSweep(const std::string& text) {
 void addWhat(CLI::App& verb, MeasureOptions& o) {
   addText(
       verb, "SCENE", "", [&o](const std::string& t) { o.scene = t; },
-      "Scene: .gltf, .glb, .obj, or a recipe's name: rooms, street, hall, kinds")
+      "Scene: .gltf, .glb, .obj, or a recipe's name: " + joinedNames(kRecipes))
       ->required();
   addText(
       verb, "-o,--output", "FOLDER", [&o](const std::string& t) { o.folder = t; },
@@ -103,7 +97,7 @@ void addHowLong(CLI::App& verb, MeasureOptions& o) {
   addText(verb, "--spp", "N", spp, "Samples per pixel of each run in place of a time: repeats bit for bit, times aside")
       ->excludes(timeOption);
   const auto runs = [&o](const std::string& t) {
-    o.runs = static_cast<int>(parseWhole("--runs", t, {.least = 1, .most = kMostRuns}));
+    o.runs = static_cast<int>(parseWhole("--runs", t, {.least = 1, .most = kMaxRuns}));
   };
   addText(verb, "--runs", "K", runs, "Of each way to render, with seeds S, S+1, ... (default 5; 20 for claims)");
   CLI::Option* reference = addText(

@@ -24,8 +24,6 @@ struct Sweep {
 inline constexpr std::array<std::string_view, 6> kSweepNames{"quality",         "threshold",  "max-cut",
                                                              "grid-resolution", "in-cluster", "max-depth"};
 
-inline constexpr std::size_t kDefaultRecipeLights = 4000;
-
 struct MeasureOptions {
   std::string scene;  ///< a file, or the name of a recipe
   std::filesystem::path folder;

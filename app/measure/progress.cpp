@@ -7,8 +7,7 @@
 namespace cellcut {
 namespace {
 
-constexpr double kTerminalInterval = 0.1;  // s
-constexpr double kLogInterval = 30;        // s
+constexpr double kLogInterval = 30;  // s
 
 }  // namespace
 
@@ -30,12 +29,7 @@ void MeasureProgress::finish(const std::string& label, double seconds) {
 }
 
 void MeasureProgress::draw(const std::string& text) {
-  constexpr const char* kToLineStart = "\r\x1b[K";  // ECMA-48 EL
-  if (terminal_) {
-    stream_ << kToLineStart << text << std::flush;
-  } else {
-    stream_ << text << std::endl;
-  }
+  drawLine(stream_, terminal_, text);
   drawn_ = watch_.seconds();
 }
 

@@ -9,12 +9,10 @@
 #include "renderer/trace/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <sstream>
 
@@ -54,9 +52,7 @@ void add(Batches& batches, const ImageRgb& batch, double seconds) {
 /// What the mean's noise adds to a relMSE that is measured against it, from the standard errors of its pixels: relative to
 /// itself, as all that is measured.
 double ownError(const Batches& batches) {
-  double mean = 0;
-  for (const Vec3& p : batches.mean) mean += (static_cast<double>(p.x) + p.y + p.z) / 3;
-  mean /= static_cast<double>(batches.mean.size());
+  const double mean = meanOfChannels(batches.mean);
   const auto n = static_cast<double>(batches.count);
   double sum = 0;
   for (std::size_t i = 0; i < batches.mean.size(); ++i) {
@@ -78,12 +74,8 @@ class BatchFiles {
  public:
   BatchFiles(const ReferenceRequest& request, std::uint64_t batchPasses) : folder_(request.folder) {
     const RenderSettings& s = request.settings;
-    const std::uint64_t key =
-        hashOf(kFormat, hashOfScene(request.scene), hashOfCamera(viewOf(request.scene, s)), s.width, s.height,
-               s.maxDepth, static_cast<std::uint64_t>(s.sampling), batchPasses);
-    std::array<char, 17> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(key));
-    key_ = text.data();
+    key_ = hexOf(hashOf(kFormat, hashOfScene(request.scene), hashOfCamera(viewOf(request.scene, s)), s.width, s.height,
+                        s.maxDepth, static_cast<std::uint64_t>(s.sampling), batchPasses));
   }
 
   fs::path pixels(std::uint64_t count) const {
@@ -108,8 +100,7 @@ class BatchFiles {
     std::copy(batches.mean.begin(), batches.mean.end(), both.begin());
     std::copy(batches.deviation.begin(), batches.deviation.end(),
               both.begin() + static_cast<std::ptrdiff_t>(batches.mean.size()));
-    const std::string seconds = std::to_string(batches.seconds) + "\n";
-    writeBytes(this->seconds(batches.count), std::as_bytes(std::span(seconds)));
+    writeText(seconds(batches.count), std::to_string(batches.seconds) + "\n");
     writePicture({pixels(batches.count), PictureKind::kPfm}, both);
   }
   void remove(std::uint64_t count) const {

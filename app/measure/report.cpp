@@ -1,5 +1,6 @@
 #include "app/measure/report.h"
 
+#include "app/json_text.h"
 #include "renderer/base/image_io.h"
 #include "renderer/measure/flip.h"
 #include "ui/overlays/colormap.h"
@@ -11,8 +12,6 @@
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace cellcut {
 namespace {
@@ -138,7 +137,7 @@ std::string reportPage(const Json& results, const fs::path& folder) {
   std::string page(reportTemplate());
   const std::size_t at = page.find(kPlace);
   assert(at != std::string::npos);
-  page.replace(at, kPlace.size(), scriptSafe(data.dump()));
+  page.replace(at, kPlace.size(), scriptSafe(jsonText(data)));
   return page;
 }
 

@@ -1,31 +1,24 @@
 #include "app/measure/results.h"
 
+#include "app/json_text.h"
+#include "app/measure/scene_hash.h"
 #include "app/measure/summary.h"
 #include "app/report.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 #include "renderer/measure/convergence.h"
+#include "renderer/scene/gltf_container.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sys/utsname.h>
 #include <thread>
-#include <unistd.h>
 
 namespace cellcut {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// 64 bits do not fit into the numbers of JSON's other readers.
-std::string hexOf(std::uint64_t value) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
-  return text.data();
-}
 
 std::string processorName() {
   std::ifstream file("/proc/cpuinfo");
@@ -39,13 +32,12 @@ std::string processorName() {
 Json machineJson(const MeasureOptions& options) {
   utsname system{};
   uname(&system);
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const unsigned threads = std::thread::hardware_concurrency();
   return {{"processor", processorName()},
           {"hardware_threads", threads},
           {"threads",
            options.picture.settings.threads > 0 ? static_cast<unsigned>(options.picture.settings.threads) : threads},
-          {"memory_bytes", memory},
+          {"memory_bytes", installedMemory()},
           {"system", std::string(system.sysname) + " " + system.release + " " + system.machine},
           {"compiler", __VERSION__}};
 }
@@ -227,7 +219,7 @@ Json settingsJson(const MeasureOptions& options) {
             {"camera", p.camera},
             {"width", s.width},
             {"height", s.height},
-            {"sampler", s.sampling == PixelSampling::kSobol ? "sobol" : "independent"},
+            {"sampler", nameOf(s.sampling)},
             {"seed", s.seed},
             {"threads", s.threads},
             {"parameters", samplerJson(s.sampler)},
@@ -267,12 +259,13 @@ void takeOver(MeasureResults& results, const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::vector<std::byte> bytes = readFile(path, kMostBytes);
   try {
-    const char* begin = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(begin, begin + bytes.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    checkJsonShape(text, file);
+    const Json json = Json::parse(text);
     // Through text, as the numbers in the file went: 0.002f there is the double nearest to it.
-    if (json.at("settings") != Json::parse(results.settings.dump())) {
-      throw InputError(file,
-                       "was made with other settings (" + json.at("settings").dump() + "); use them or another folder");
+    if (json.at("settings") != Json::parse(jsonText(results.settings))) {
+      throw InputError(
+          file, "was made with other settings (" + jsonText(json.at("settings")) + "); use them or another folder");
     }
     for (const Json& c : json.at("cases")) takeOverCase(results, c, file);
     for (const Json& run : json.at("runs")) results.runs.push_back(runOf(results.plan, run, file));

@@ -32,9 +32,9 @@ struct MeasuredRun {
   ImageRgb picture;  ///< at the last checkpoint
 };
 
-/// When a run ends: with the first pass that reaches either.
+/// When a run ends: with the pass that reaches `passes` where they are set, else with the first that reaches `seconds`.
 struct RunLimit {
-  double seconds = 0;  ///< of rendering; not looked at where passes are set
+  double seconds = 0;  ///< of rendering
   std::optional<std::uint64_t> passes;
 };
 

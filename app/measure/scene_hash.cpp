@@ -1,19 +1,38 @@
 #include "app/measure/scene_hash.h"
 
+#include <array>
+#include <cstdio>
 #include <cstring>
 #include <initializer_list>
-#include <type_traits>
+#include <span>
 
 namespace cellcut {
 namespace {
 
+/// For caches: nobody is kept from making two inputs collide.
+/// Source: Fowler, Noll, Vo, FNV-1a, over words of eight bytes.
+std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t start = 14695981039346656037ull) {
+  constexpr std::uint64_t kPrime = 1099511628211ull;
+  std::uint64_t hash = start;
+  const auto mix = [&](std::uint64_t word) {
+    hash = (hash ^ word) * kPrime;
+    hash ^= hash >> 32;  // else a word's upper bits would only ever reach the hash's upper bits
+  };
+  for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes.data(), 8);
+    mix(word);
+  }
+  for (const std::byte byte : bytes) mix(std::to_integer<std::uint64_t>(byte));
+  return hash;
+}
+
 /// Numbers one after the other; of a structure only what is given, never its padding.
 class Hash {
  public:
+  /// \pre no value has padding
   template <class Range>
   void range(const Range& values) {
-    using Value = typename Range::value_type;
-    static_assert(std::has_unique_object_representations_v<Value> || sizeof(Value) % sizeof(float) == 0);
     number(static_cast<double>(values.size()));
     value_ = hashBytes(std::as_bytes(std::span(values.data(), values.size())), value_);
   }
@@ -65,28 +84,15 @@ void add(Hash& hash, const Texture& t) {
 
 }  // namespace
 
-std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t start) {
-  constexpr std::uint64_t kPrime = 1099511628211ull;
-  std::uint64_t hash = start;
-  const auto mix = [&](std::uint64_t word) {
-    hash = (hash ^ word) * kPrime;
-    hash ^= hash >> 32;  // else a word's upper bits would only ever reach the hash's upper bits
-  };
-  for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
-    std::uint64_t word;
-    std::memcpy(&word, bytes.data(), 8);
-    mix(word);
-  }
-  for (const std::byte byte : bytes) mix(std::to_integer<std::uint64_t>(byte));
-  return hash;
-}
-
 std::uint64_t hashOfScene(const Scene& scene) {
   Hash hash;
   for (const Mesh& mesh : scene.meshes) add(hash, mesh);
   for (const Material& material : scene.materials) add(hash, material);
   for (const Texture& texture : scene.textures) add(hash, texture);
   for (const ImageRgba8& texels : scene.texels) hash.image(texels);
+  static_assert(sizeof(PointLight) == 6 * sizeof(float) && sizeof(SpotLight) == 11 * sizeof(float) &&
+                    sizeof(DirectionalLight) == 6 * sizeof(float),
+                "lights are hashed as floats alone");
   hash.range(scene.pointLights);
   hash.range(scene.spotLights);
   hash.range(scene.directionalLights);
@@ -102,6 +108,12 @@ std::uint64_t hashOfCamera(const Camera& camera) {
   for (const Vec3& v : {camera.position, camera.right, camera.up, camera.back}) hash.vector(v);
   hash.numbers({camera.halfHeight, camera.orthographic ? 1.0f : 0.0f});
   return hash.value();
+}
+
+std::string hexOf(std::uint64_t hash) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
 }
 
 }  // namespace cellcut

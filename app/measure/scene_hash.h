@@ -4,15 +4,10 @@
 
 #include "renderer/scene/scene.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <string>
 
 namespace cellcut {
-
-/// 64-bit hash of bytes, for caches: nobody is kept from making two inputs collide.
-/// Source: Fowler, Noll, Vo, FNV-1a, over words of eight bytes.
-std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t start = 14695981039346656037ull);
 
 /// Of all that a picture of the scene depends on: geometry, attributes, materials, texels, lights, environment; neither
 /// names nor cameras.
@@ -20,5 +15,8 @@ std::uint64_t hashOfScene(const Scene& scene);
 
 /// Of what a camera sees, its name aside.
 std::uint64_t hashOfCamera(const Camera& camera);
+
+/// Sixteen digits: 64 bits do not fit into the numbers of JSON's other readers.
+std::string hexOf(std::uint64_t hash);
 
 }  // namespace cellcut

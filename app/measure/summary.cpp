@@ -1,10 +1,9 @@
 #include "app/measure/summary.h"
 
+#include "renderer/base/exact_number.h"
 #include "renderer/measure/convergence.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -61,13 +60,9 @@ Checkpoint compared(const RunRecord& run, std::optional<double> seconds) {
   return seconds ? atTime(run, *seconds) : run.checkpoints.back();
 }
 
-/// Shortest text that reads back as the same number; empty for what is none.
-template <class Number>
-std::string text(Number value) {
-  if (!std::isfinite(value)) return "";
-  std::array<char, 32> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end};
+/// Empty for what is no number.
+std::string text(double value) {
+  return std::isfinite(value) ? exactNumber(value) : "";
 }
 
 /// RFC 4180.
@@ -133,7 +128,7 @@ std::vector<Column> makeColumns() {
          return std::string(nameOf(configurationOf(results, row).strategy));
        }},
       parameter("threshold", "share of the cut's estimate above which a cluster is split",
-                [](const SamplerSettings& s) { return text(s.threshold); }),
+                [](const SamplerSettings& s) { return exactNumber(s.threshold); }),
       parameter("max_cut", "most clusters of a cut", [](const SamplerSettings& s) { return std::to_string(s.maxCut); }),
       parameter("grid_resolution", "cells along the longest axis",
                 [](const SamplerSettings& s) { return std::to_string(s.gridResolution); }),

@@ -12,9 +12,10 @@ _cellcut_files() {
 _cellcut_words() { COMPREPLY+=($(compgen -W "$1" -- "$cur")); }
 
 _cellcut_strategies='uniform power proportional cell-cut point-cut light-tree'
-_cellcut_picture_options='--quality --strategy --spp --time --noise --size --max-depth --seed --threads --camera --sampler
-  --threshold --max-cut --grid-resolution --in-cluster --cell-memory --environment --environment-scale
-  --environment-rotation --punctual-scale --max-triangles --max-texture-bytes --help'
+_cellcut_setting_options='--quality --size --max-depth --seed --threads --camera --sampler --threshold --max-cut
+  --grid-resolution --in-cluster --cell-memory --environment --environment-scale --environment-rotation --punctual-scale
+  --max-triangles --max-texture-bytes --help'
+_cellcut_picture_options="--strategy --spp --time --noise $_cellcut_setting_options"
 
 # Values of the options that say how a picture is made; fails for any other word.
 _cellcut_picture_value() {
@@ -53,8 +54,8 @@ _cellcut_measure() {
     --lights | --runs | --reference-spp) ;;
     measure) _cellcut_words 'rooms street hall kinds' && _cellcut_files 'gltf|glb|obj' ;;
     *) _cellcut_picture_value ||
-      _cellcut_scene_or "-o --output --strategies --lights --sweep --runs --reference --reference-spp --resume
-        $_cellcut_picture_options" ;;
+      _cellcut_scene_or "-o --output --strategies --lights --sweep --time --spp --runs --reference --reference-spp
+        --resume $_cellcut_setting_options" ;;
   esac
 }
 

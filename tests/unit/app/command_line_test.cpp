@@ -1,5 +1,6 @@
 #include "app/command_line.h"
 
+#include "app/console.h"
 #include "renderer/base/image_io.h"
 #include "renderer/sampling/sampler_settings.h"
 #include "renderer/sampling/strategy.h"
@@ -9,9 +10,12 @@
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -97,6 +101,14 @@ TEST(CommandLine, FilesThatAreNotThereAreBadInput) {
   expectRefused({"render", (folder / "no.glb").string(), "-o", (folder / "a.png").string()}, "no.glb");
 }
 
+TEST(CommandLine, NoTextCommandsTheTerminal) {
+  const Outcome outcome = runCommand({"info", "no\x1b[2J\n.glb"});
+  EXPECT_THAT(outcome.err, testing::StartsWith("cellcut: no?[2J .glb: does not exist"));
+  std::ostringstream err;
+  Console{err, err}.warn("a\x1b[2Jb\nc");
+  EXPECT_EQ(err.str(), "cellcut: warning: a?[2Jb?c\n");
+}
+
 TEST(CommandLine, PicturesOfDifferentSizesDoNotCompare) {
   const test::TemporaryDirectory folder;
   writePfm(folder / "a.pfm", ImageRgb(2, 3));
@@ -123,6 +135,45 @@ TEST(CommandLine, CompareReportsTheDifference) {
   EXPECT_GT(json.at("flip_ldr"), 0);
 }
 
+TEST(CommandLine, HelpHasBelowWhatItSaysIsBelow) {
+  for (const std::string& verb : allVerbs()) {
+    const std::string help = runCommand({verb, "--help"}).out;
+    const std::vector<std::pair<std::string, std::string>> explained{{"--strateg", "\nStrategies:\n"},
+                                                                     {"--quality", "\nQualities:\n"},
+                                                                     {"--noise", "\nNoise: "},
+                                                                     {"--punctual-scale", "\nBlender's exporter "}};
+    for (const auto& [option, explanation] : explained) {
+      EXPECT_EQ(help.find(option) != std::string::npos, help.find(explanation) != std::string::npos) << verb << option;
+    }
+  }
+}
+
+/// Every --word in a text.
+std::set<std::string> optionsIn(const std::string& text) {
+  std::set<std::string> options;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::size_t dashes = word.find("--");
+    if (dashes == std::string::npos) continue;
+    const std::size_t end = word.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", dashes);
+    options.insert(word.substr(dashes, end == std::string::npos ? end : end - dashes));
+  }
+  return options;
+}
+
+/// What bash offers behind `cellcut VERB file --`.
+std::string completionOf(const std::string& verb) {
+  const std::string command = "bash -c 'source \"" CELLCUT_ASSETS
+                              "/completions/cellcut.bash\"; COMP_CWORD=3; "
+                              "COMP_WORDS=(cellcut " +
+                              verb + " file --); _cellcut; echo ${COMPREPLY[*]}'";
+  std::FILE* const bash = popen(command.c_str(), "r");
+  std::string offered;
+  for (int c; bash && (c = std::fgetc(bash)) != EOF;) offered += static_cast<char>(c);
+  if (bash) pclose(bash);
+  return offered;
+}
+
 TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   std::ifstream file(CELLCUT_ASSETS "/completions/cellcut.bash");
   const std::string script(std::istreambuf_iterator<char>(file), {});
@@ -132,14 +183,7 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string& verb : allVerbs()) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render measure compare generate info"));
-    std::istringstream help(runCommand({verb, "--help"}).out);
-    for (std::string word; help >> word;) {
-      const std::size_t dashes = word.find("--");
-      if (dashes == std::string::npos) continue;
-      const std::size_t end = word.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", dashes);
-      const std::string option = word.substr(dashes, end == std::string::npos ? end : end - dashes);
-      EXPECT_THAT(script, HasSubstr(option)) << verb;
-    }
+    EXPECT_EQ(optionsIn(completionOf(verb)), optionsIn(runCommand({verb, "--help"}).out)) << verb;
   }
 }
 
@@ -227,6 +271,39 @@ TEST_F(VerbsOnAScene, ReportHasEveryKeyOfTheContract) {
   for (const char* key : {"peak_rss", "scene", "accel", "lights", "film"})
     EXPECT_GT(json.at("memory").at(key), 0) << key;
   for (const char* key : {"nan", "inf", "dropped"}) EXPECT_EQ(json.at("samples").at(key), 0) << key;
+}
+
+TEST_F(VerbsOnAScene, NamesMayBeAnyBytes) {
+  std::filesystem::copy(path("kinds.glb"), path("caf\xe9.glb"));
+  const Outcome outcome = runCommand({"render", path("caf\xe9.glb"), "-o", path("a.pfm"), "--size", "8x8", "--spp", "1",
+                                      "--report", path("report.json")});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_EQ(report().at("scene"), path("caf\ufffd.glb"));
+  writeFile(path("a.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe9\nf 1 2 3\n");
+  const Outcome info = runCommand({"info", path("a.obj")});
+  ASSERT_EQ(info.code, kDone) << info.err;
+  EXPECT_THAT(nlohmann::json::parse(info.out).at("warnings").dump(), HasSubstr("caf\ufffd"));
+}
+
+TEST_F(VerbsOnAScene, NoOutputReplacesAnInputOrAnotherOutput) {
+  const std::string scene = path("kinds.glb"), before = contents("kinds.glb");
+  expectRefused({"render", scene, "-o", path("a.png"), "--report", scene}, "is the file of SCENE too");
+  expectRefused({"render", scene, "-o", path("a.png"), "--report", path("a.png")}, "is the file of --output too");
+  writePfm(path("sky.pfm"), ImageRgb(4, 2, Vec3(1)));
+  expectRefused({"render", scene, "-o", path("sky.pfm"), "--environment", path("sky.pfm")}, "of --environment too");
+#ifdef CELLCUT_UI
+  writeFile(path("script.txt"), "quit\n");
+  expectRefused({"view", "--headless", "--script", path("script.txt"), "--record", path("script.txt"), scene},
+                "is the file of --script too");
+  EXPECT_EQ(contents("script.txt"), "quit\n");
+  expectRefused({"view", "--headless", "--script", path("script.txt"), "--record", "/dev/null", scene},
+                "/dev/null: is no regular file");
+  std::filesystem::create_directory(path("b.json"));
+  expectRefused({"screenshot", scene, "-o", path("b.png")}, "b.json: is a folder");
+  expectRefused({"screenshot", scene, "-o", path("a.png"), "--reference", path("a.png")}, "of --reference too");
+#endif
+  EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+  EXPECT_TRUE(contents("kinds.glb") == before);
 }
 
 TEST_F(VerbsOnAScene, PictureIsTheSameOnAnyNumberOfThreads) {

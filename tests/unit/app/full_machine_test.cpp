@@ -1,4 +1,4 @@
-/// The program itself on a machine without memory or room on its disk.
+/// The program itself on a machine without memory, room on its disk or many cores.
 #include "app/command_line.h"
 #include "renderer/base/image_io.h"
 #include "renderer/scene/recipes/recipe.h"
@@ -9,6 +9,7 @@
 
 #include <map>
 #include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -104,6 +105,17 @@ TEST_F(FullDisk, GenerateNamesTheSceneAndKeepsTheOldOne) {
   expectRefusal({"generate", "rooms", "--lights", "20", "-o", old.string()}, fullDisk(4), old);
 }
 
+TEST_F(FullDisk, AResultThatCannotBePrintedFails) {
+  const fs::path picture = output / "a.pfm";
+  writePfm(picture, ImageRgb(1, 1, Vec3(1)));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"info", scene}, {"compare", picture, picture}, {"render", "--help"}}) {
+    ProgramRun run(arguments, folder.path(), "exec >/dev/full");
+    EXPECT_EQ(run.wait().code, kFailed);
+    EXPECT_EQ(run.err(), "cellcut: standard output: cannot be written to its end; make room or send it elsewhere\n");
+  }
+}
+
 #ifdef CELLCUT_UI
 TEST_F(FullDisk, AViewerWhoseRecordLacksLinesFails) {
   std::string script;
@@ -116,6 +128,18 @@ TEST_F(FullDisk, AViewerWhoseRecordLacksLinesFails) {
             "cellcut: " + record + ": not all that was done could be recorded; make room or choose another place\n");
 }
 #endif
+
+TEST(FewCores, MoreThreadsAreUsedWithoutAWord) {
+  const test::TemporaryDirectory folder;
+  const fs::path scene = folder / "rooms.glb";
+  writeFileAtomically(scene, generateRecipe(Recipe::kRooms, 200, 0));
+  const std::string threads = std::to_string(std::thread::hardware_concurrency() + 6);
+  const std::string picture = folder / "a.pfm";
+  ProgramRun run({"render", scene, "-o", picture, "--size", "64x36", "--spp", "2", "--threads", threads},
+                 folder.path());
+  EXPECT_EQ(run.wait().code, kDone);
+  EXPECT_THAT(run.err(), testing::Not(HasSubstr("TBB")));
+}
 
 TEST(NoMemory, IsSaidHoweverLittleThereIs) {
   if (test::isSanitized()) GTEST_SKIP() << "a sanitizer's shadow memory takes terabytes";

@@ -193,6 +193,15 @@ TEST_F(MeasureTest, NeverOverwritesResults) {
   EXPECT_EQ(measure("a", {"--resume"}).code, kBadInput);
 }
 
+TEST_F(MeasureTest, ResultsThatNestWithoutEndAreRefused) {
+  std::filesystem::create_directory(folder_ / "a");
+  std::ofstream(folder_ / "a" / "results.json")
+      << "{\"settings\": " << std::string(100'000, '[') << std::string(100'000, ']') << "}";
+  const Outcome outcome = measure("a", {"--resume"});
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("results.json: JSON nested more than 128 deep"));
+}
+
 TEST_F(MeasureTest, ReferenceIsMadeOnce) {
   const Outcome first = measure("a");
   ASSERT_EQ(first.code, kDone) << first.err;

@@ -44,8 +44,9 @@ class RenderOptionsTest : public testing::Test {
 TEST_F(RenderOptionsTest, DefaultsAreTheRenderersOwn) {
   const RenderOptions options = parse({});
   EXPECT_EQ(options.scene, "scene.glb");
-  EXPECT_EQ(options.stop.kind, StopRule::Kind::kPasses);
-  EXPECT_EQ(options.stop.passes, 64u);
+  EXPECT_FALSE(options.stop.has_value());
+  EXPECT_EQ(StopRule{}.kind, StopRule::Kind::kPasses);
+  EXPECT_EQ(StopRule{}.passes, 64u);
   EXPECT_EQ(options.settings.width, RenderSettings{}.width);
   EXPECT_EQ(options.settings.strategy, RenderSettings{}.strategy);
   EXPECT_EQ(options.settings.maxDepth, 8);
@@ -88,7 +89,7 @@ TEST_F(RenderOptionsTest, EveryOptionReachesItsSetting) {
                                        "--report",
                                        (folder_ / "r.json").string()});
   EXPECT_EQ(options.settings.strategy, Strategy::kPower);
-  EXPECT_EQ(options.stop.passes, 7u);
+  EXPECT_EQ(options.stop.value().passes, 7u);
   EXPECT_EQ(options.settings.width, 320);
   EXPECT_EQ(options.settings.height, 180);
   EXPECT_EQ(options.settings.maxDepth, 0);
@@ -106,10 +107,11 @@ TEST_F(RenderOptionsTest, EveryOptionReachesItsSetting) {
 }
 
 TEST_F(RenderOptionsTest, TimeAndNoiseReplaceTheNumberOfSamples) {
-  EXPECT_EQ(parse({"--time", "1.5"}).stop.kind, StopRule::Kind::kSeconds);
-  EXPECT_EQ(parse({"--time", "1.5"}).stop.seconds, 1.5);
-  EXPECT_EQ(parse({"--noise", "0.05"}).stop.kind, StopRule::Kind::kNoise);
-  EXPECT_EQ(parse({"--noise", "0.05"}).stop.noise, 0.05);
+  const StopRule time = parse({"--time", "1.5"}).stop.value(), noise = parse({"--noise", "0.05"}).stop.value();
+  EXPECT_EQ(time.kind, StopRule::Kind::kSeconds);
+  EXPECT_EQ(time.seconds, 1.5);
+  EXPECT_EQ(noise.kind, StopRule::Kind::kNoise);
+  EXPECT_EQ(noise.noise, 0.05);
 }
 
 TEST_F(RenderOptionsTest, OnlyOneStopRuleIsAccepted) {
