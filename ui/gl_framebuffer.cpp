@@ -9,32 +9,13 @@
 
 namespace cellcut {
 
-namespace {
-
-GlTextureHandle makeDepthTexture(PixelSize size) {
-  unsigned name = 0;
-  glGenTextures(1, &name);
-  GlTextureHandle handle(name);
-  glBindTexture(GL_TEXTURE_2D, name);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size.width, size.height, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,
-               nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glBindTexture(GL_TEXTURE_2D, 0);
-  return handle;
-}
-
-}  // namespace
-
 GlFramebuffer::GlFramebuffer(PixelSize size) {
   color_.allocate(size);
-  depth_ = makeDepthTexture(size);
   unsigned name = 0;
   glGenFramebuffers(1, &name);
   handle_ = GlFramebufferHandle(name);
   glBindFramebuffer(GL_FRAMEBUFFER, name);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.name(), 0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   checkGl("framebuffer");
   if (status != GL_FRAMEBUFFER_COMPLETE) throw GlError("framebuffer: incomplete, status " + std::to_string(status));
@@ -49,10 +30,8 @@ void GlFramebuffer::clear(const Vec4& color) const {
   bind();
   glDisable(GL_SCISSOR_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDepthMask(GL_TRUE);
   glClearColor(color.r, color.g, color.b, color.a);
-  glClearDepth(1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClear(GL_COLOR_BUFFER_BIT);
 }
 
 ImageRgba8 GlFramebuffer::read() const {

@@ -1,5 +1,5 @@
 /// \file gl_framebuffer.h
-/// Where everything is drawn: 8-bit RGBA, sRGB-encoded by who draws, with a depth buffer.
+/// Where everything is drawn: 8-bit RGBA, sRGB-encoded by who draws. Nothing tests depth.
 ///
 /// OpenGL's row 0 is the bottom of this picture: viewports and scissors count from below, read() from the top.
 #pragma once
@@ -18,7 +18,7 @@ class GlFramebuffer {
 
   /// Drawing goes here, to all of it.
   void bind() const;
-  /// bind(), colour (sRGB-encoded) and the farthest depth everywhere.
+  /// bind() and one colour (sRGB-encoded) everywhere.
   void clear(const Vec4& color) const;
   /// What it holds, opaque: what lies under the window's pixels does not shine through a PNG.
   ImageRgba8 read() const;
@@ -29,7 +29,6 @@ class GlFramebuffer {
  private:
   GlFramebufferHandle handle_;
   GlTexture color_;
-  GlTextureHandle depth_;
 };
 
 }  // namespace cellcut

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <epoxy/gl.h>
-#include <glm/gtc/type_ptr.hpp>
 
 namespace cellcut {
 
@@ -74,15 +73,6 @@ void GlProgram::set(const char* uniform, float value) const {
 }
 void GlProgram::set(const char* uniform, const Vec2& value) const {
   glUniform2f(location(uniform), value.x, value.y);
-}
-void GlProgram::set(const char* uniform, const Vec3& value) const {
-  glUniform3f(location(uniform), value.x, value.y, value.z);
-}
-void GlProgram::set(const char* uniform, const Vec4& value) const {
-  glUniform4f(location(uniform), value.x, value.y, value.z, value.w);
-}
-void GlProgram::set(const char* uniform, const glm::mat4& value) const {
-  glUniformMatrix4fv(location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
 
 int GlProgram::location(const char* uniform) const {

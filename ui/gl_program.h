@@ -8,8 +8,6 @@
 #include <initializer_list>
 #include <string_view>
 
-#include <glm/mat4x4.hpp>
-
 namespace cellcut {
 
 class GlProgram {
@@ -25,9 +23,6 @@ class GlProgram {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, float value) const;
   void set(const char* uniform, const Vec2& value) const;
-  void set(const char* uniform, const Vec3& value) const;
-  void set(const char* uniform, const Vec4& value) const;
-  void set(const char* uniform, const glm::mat4& value) const;
 
  private:
   explicit GlProgram(GlProgramHandle handle) : handle_(std::move(handle)) {}

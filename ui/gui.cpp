@@ -30,6 +30,7 @@ ContextOwner makeContext(float scale) {
   io.BackendRendererName = "cellcut";
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   setStyle(ImGui::GetStyle(), scale);
+  addFont(*io.Fonts, scale);
   return context;
 }
 
@@ -37,11 +38,7 @@ ContextOwner makeContext(float scale) {
 
 struct Gui::State {
   State(Window& window_, float scale)
-      : window(window_),
-        context(makeContext(scale)),
-        fonts(addFonts(*ImGui::GetIO().Fonts, scale)),
-        input(ImGui::GetIO()),
-        renderer(*ImGui::GetIO().Fonts) {
+      : window(window_), context(makeContext(scale)), input(ImGui::GetIO()), renderer(*ImGui::GetIO().Fonts) {
     ImGuiIO& io = ImGui::GetIO();
     io.ClipboardUserData = this;
     io.GetClipboardTextFn = [](void* state) {
@@ -57,7 +54,6 @@ struct Gui::State {
   Window& window;
   std::string clipboard;  ///< what ImGui was lent last
   ContextOwner context;
-  GuiFonts fonts;
   GuiInput input;
   GuiRenderer renderer;
 };
@@ -110,13 +106,6 @@ bool Gui::controlDown() const {
 }
 bool Gui::shiftDown() const {
   return ImGui::GetIO().KeyShift;
-}
-bool Gui::altDown() const {
-  return ImGui::GetIO().KeyAlt;
-}
-
-ImFont* Gui::monospace() const {
-  return state_->fonts.monospace;
 }
 
 }  // namespace cellcut

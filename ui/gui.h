@@ -12,8 +12,6 @@
 #include <memory>
 #include <span>
 
-struct ImFont;
-
 namespace cellcut {
 
 class Window;
@@ -36,7 +34,7 @@ class Gui {
   /// \param events  what is new. ImGui sees of it what one frame can tell apart; the rest waits for the next frames.
   void beginFrame(PixelSize size, double seconds, std::span<const InputEvent> events);
   /// Draws over what the bound framebuffer holds. Framebuffer binding and viewport (all of `size`) remain; blending,
-  /// scissor, depth test, program, vertex array and texture bindings of unit 0 are left at OpenGL's defaults.
+  /// scissor, program, vertex array and texture bindings of unit 0 are left at OpenGL's defaults.
   void endFrame();
   /// Ends a frame without drawing, if one was begun: after a failure between panels.
   void abandonFrame();
@@ -54,11 +52,8 @@ class Gui {
   bool keyPressed(Key key, bool repeat = false) const;
   bool controlDown() const;
   bool shiftDown() const;
-  bool altDown() const;
 
   float scale() const { return settings_.scale; }
-  /// Digits and letters of equal width, for tables. Never null.
-  ImFont* monospace() const;
 
  private:
   struct State;

@@ -72,7 +72,6 @@ void GuiRenderer::draw(const ImDrawData& data) const {
   if (data.DisplaySize.x <= 0 || data.DisplaySize.y <= 0) return;
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_SCISSOR_TEST);
   program_.use();

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include <imgui.h>
@@ -16,29 +15,7 @@ constexpr float kBuiltInHeight = 13;  // what ImGui's own font is drawn for
 
 /// Where Debian, Fedora and Arch install them.
 constexpr std::string_view kFontFolders[] = {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
-                                             "/usr/share/fonts/dejavu-sans-mono-fonts", "/usr/share/fonts/TTF"};
-
-ImFont* addFont(ImFontAtlas& atlas, const std::string& file, float scale) {
-  // Pairs of first and last, then 0. The atlas keeps the pointer until it is built.
-  static constexpr ImWchar kRanges[] = {0x0020, 0x00FF,  // Latin
-                                        0x0370, 0x03FF,  // Greek
-                                        0x2010, 0x2027,  // dashes, quotes, ellipsis
-                                        0x2070, 0x209F,  // superscripts, subscripts
-                                        0x2190, 0x21FF,  // arrows
-                                        0x2200, 0x22FF,  // mathematics
-                                        0x25A0, 0x25FF,  // squares, triangles, circles
-                                        0x2600, 0x26FF,  // signs, the warning among them
-                                        0};
-  for (const std::string_view folder : kFontFolders) {
-    const std::filesystem::path path = std::filesystem::path(folder) / file;
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) continue;
-    return atlas.AddFontFromFileTTF(path.c_str(), std::round(kTextHeight * scale), nullptr, kRanges);
-  }
-  ImFontConfig config;
-  config.SizePixels = std::round(kBuiltInHeight * scale);
-  return atlas.AddFontDefault(&config);
-}
+                                             "/usr/share/fonts/TTF"};
 
 void setColors(ImGuiStyle& style) {
   ImGui::StyleColorsDark(&style);
@@ -86,11 +63,27 @@ void setStyle(ImGuiStyle& style, float scale) {
   style.ScaleAllSizes(scale);
 }
 
-GuiFonts addFonts(ImFontAtlas& atlas, float scale) {
-  GuiFonts fonts;
-  fonts.text = addFont(atlas, "DejaVuSans.ttf", scale);
-  fonts.monospace = addFont(atlas, "DejaVuSansMono.ttf", scale);
-  return fonts;
+void addFont(ImFontAtlas& atlas, float scale) {
+  // Pairs of first and last, then 0. The atlas keeps the pointer until it is built.
+  static constexpr ImWchar kRanges[] = {0x0020, 0x00FF,  // Latin
+                                        0x0370, 0x03FF,  // Greek
+                                        0x2010, 0x2027,  // dashes, quotes, ellipsis
+                                        0x2070, 0x209F,  // superscripts, subscripts
+                                        0x2190, 0x21FF,  // arrows
+                                        0x2200, 0x22FF,  // mathematics
+                                        0x25A0, 0x25FF,  // squares, triangles, circles
+                                        0x2600, 0x26FF,  // signs, the warning among them
+                                        0};
+  for (const std::string_view folder : kFontFolders) {
+    const std::filesystem::path path = std::filesystem::path(folder) / "DejaVuSans.ttf";
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) continue;
+    atlas.AddFontFromFileTTF(path.c_str(), std::round(kTextHeight * scale), nullptr, kRanges);
+    return;
+  }
+  ImFontConfig config;
+  config.SizePixels = std::round(kBuiltInHeight * scale);
+  atlas.AddFontDefault(&config);
 }
 
 }  // namespace cellcut

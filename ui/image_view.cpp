@@ -74,8 +74,6 @@ void ImageView::draw(PixelSize framebuffer, const PixelRect& clip, const ImagePl
   assert(placement.scale > 0);
   if (images_[0].empty() || framebuffer.empty()) return;
   glDisable(GL_BLEND);
-  glDisable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
   setScissor(framebuffer, clip);
   glBindVertexArray(vertices_.name());
 
@@ -111,7 +109,6 @@ void ImageView::draw(PixelSize framebuffer, const PixelRect& clip, const ImagePl
   glBindVertexArray(0);
   glUseProgram(0);
   glDisable(GL_SCISSOR_TEST);
-  glDepthMask(GL_TRUE);
   checkGl("drawing the picture");
 }
 

@@ -30,11 +30,11 @@ constexpr std::pair<std::string_view, Key> kShortNames[] = {{"Ctrl", Key::kLeftC
                                                             {"Esc", Key::kEscape},
                                                             {"Return", Key::kEnter}};
 
+}  // namespace
+
 bool equalIgnoringCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
-
-}  // namespace
 
 std::string_view keyName(Key key) {
   return kNames[static_cast<std::size_t>(key)];

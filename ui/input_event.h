@@ -33,6 +33,9 @@ std::string_view keyName(Key key);
 /// such key.
 std::optional<Key> keyFromName(std::string_view name);
 
+/// Whether two names, of keys or of widgets, are the same but for the case of their letters.
+bool equalIgnoringCase(std::string_view a, std::string_view b);
+
 enum class MouseButton : std::uint8_t { kLeft, kRight, kMiddle };
 inline constexpr int kMouseButtonCount = 3;
 

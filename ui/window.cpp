@@ -7,7 +7,7 @@
 
 namespace cellcut {
 
-std::string_view windowKindName(WindowKind kind) {
+std::string_view nameOf(WindowKind kind) {
   switch (kind) {
     case WindowKind::kGlfw:
       return "glfw";
@@ -49,7 +49,7 @@ OpenedWindow openAnyWindow(const WindowSettings& settings) {
   for (const WindowKind kind : {WindowKind::kGlfw, WindowKind::kEgl, WindowKind::kOsmesa}) {
     try {
       OpenedWindow opened{openWindow(kind, settings), {}};
-      if (!reasons.empty()) opened.notice = reasons + "; drawing into memory by " + std::string(windowKindName(kind));
+      if (!reasons.empty()) opened.notice = reasons + "; drawing into memory by " + std::string(nameOf(kind));
       return opened;
     } catch (const GlError& error) {
       if (!reasons.empty()) reasons += "; ";

@@ -25,7 +25,7 @@ enum class WindowKind {
   kOsmesa  ///< memory, for machines whose EGL cannot start
 };
 /// "glfw", "egl", "osmesa".
-std::string_view windowKindName(WindowKind kind);
+std::string_view nameOf(WindowKind kind);
 
 struct WindowSettings {
   PixelSize size{1280, 800};  ///< of the framebuffer, on a display as near as the system allows; ≥ 1 each

@@ -1,9 +1,8 @@
+#include "renderer/base/stopwatch.h"
 #include "ui/gl_error.h"
 #include "ui/gl_framebuffer.h"
 #include "ui/glfw_keys.h"
 #include "ui/window_kinds.h"
-
-#include <chrono>
 
 #include <epoxy/gl.h>
 
@@ -38,7 +37,7 @@ class GlfwWindow final : public Window {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // framebuffer objects have their own
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // it is only copied to
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     window_ = glfwCreateWindow(settings.size.width, settings.size.height, settings.title.c_str(), nullptr, nullptr);
     if (window_ == nullptr) throw GlError("no window with OpenGL 3.3 on this display: " + glfwReason());
@@ -104,9 +103,9 @@ class GlfwWindow final : public Window {
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     checkGl("showing the picture");
     glFinish();
-    const auto drawn = std::chrono::steady_clock::now();
+    const Stopwatch drawn;
     glfwSwapBuffers(window_);
-    swapSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - drawn).count();
+    swapSeconds_ = drawn.seconds();
   }
   double swapSeconds() const override { return swapSeconds_; }
 

@@ -41,7 +41,8 @@ class Pictures {
       for (const ScaleKind kind : {ScaleKind::kLinear, ScaleKind::kLog}) {
         const ColorScale scale(values, {.kind = kind});
         ImageRgba8 image = shown(mean_);
-        blendOver(image, colorize(values, scale, 0.8f));
+        const ImageRgba8 colours = colorize(values, scale, 0.8f);
+        for (std::size_t i = 0; i < image.size(); ++i) image[i] = over(image[i], colours[i]);
         write(std::string(o.name) + (kind == ScaleKind::kLog ? "-log" : ""), image);
         describe(o, values, makeLegend(scale, o.title, o.unit, o.integral));
       }

@@ -54,7 +54,14 @@ TEST(ScriptFile, WhatIsNoScriptIsRefusedInOneLineOfText) {
   std::ofstream(folder / "script.txt") << std::string(3, '\0') + "\x1b[2J" + std::string(1000, 'x');
   EXPECT_THAT(scriptRefusal(folder / "script.txt"),
               testing::EndsWith("script.txt:1: no action '????[2J" + std::string(73, 'x') +
-                                "'; cellcut view --help lists them"));
+                                "…'; cellcut view --help lists them"));
+}
+
+TEST(ScriptRecorder, AFifoIsRefusedAndNotWaitedFor) {
+  const test::TemporaryDirectory folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const test::HostileBudget budget("pipe");  // nobody ever reads it
+  EXPECT_THAT(test::refusalOf([&] { ScriptRecorder(folder / "pipe"); }), HasSubstr("pipe: is no regular file"));
 }
 
 TEST(ScriptRecorder, WhatStandsInTheFileIsReadBack) {

@@ -4,14 +4,8 @@
 #include "renderer/scene/recipes/recipe.h"
 #include "tests/support/restrictions.h"
 #include "tests/ui/viewer_fixture.h"
-#include "ui/gl_error.h"
-#include "ui/memory_window.h"
 
-#include <chrono>
-#include <condition_variable>
 #include <future>
-#include <mutex>
-#include <thread>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
@@ -61,7 +55,7 @@ TEST_F(ViewerTest, DragsScrollsAndKeysMoveTheCamera) {
   for (const std::string& move : moves) {
     play(move + "\nwait idle\n");
     ASSERT_TRUE(viewer_->state().settings.view) << move;
-    EXPECT_FALSE(sameView(*viewer_->state().settings.view, start)) << move;
+    EXPECT_FALSE(isSameView(*viewer_->state().settings.view, start)) << move;
     play("click Reset\nwait idle\n");
     EXPECT_FALSE(viewer_->state().settings.view) << move;
   }
@@ -219,6 +213,13 @@ TEST_F(ViewerTest, ABadSceneIsRefusedAndTheOldOneGoesOn) {
   EXPECT_EQ(viewer_->session().snapshot()->passes, 2u);
 }
 
+TEST_F(ViewerTest, APictureOfAnyCaseIsAReference) {
+  writeExr(folder_ / "REFERENCE.EXR", {2, 1, {{"", {"R", "G", "B"}, {1, 2, 3, 4, 5, 6}}}, {}});
+  play("drop REFERENCE.EXR\nwait idle\n");
+  ASSERT_TRUE(viewer_->reference().picture);
+  EXPECT_EQ(viewer_->reference().picture->at(1, 0), Vec3(4, 5, 6));
+}
+
 TEST_F(ViewerTest, ASceneThatIsGoneWhenItIsReadAgainGoesOn) {
   writeFileAtomically(folder_ / "gone.glb", generateRecipe(Recipe::kRooms, 8, 0));
   play("drop gone.glb\nwait idle\n");
@@ -232,7 +233,8 @@ TEST_F(ViewerTest, ASceneThatIsGoneWhenItIsReadAgainGoesOn) {
 
 TEST_F(ViewerTest, SavesTheWindowAndTheRendering) {
   play("wait idle\nkey F12\nwait idle\n");
-  EXPECT_THAT(viewer_->problem(), HasSubstr("saved"));
+  EXPECT_THAT(viewer_->notice(), HasSubstr("saved"));
+  EXPECT_EQ(viewer_->problem(), "");
   std::size_t exr = 0, png = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
     if (entry.path().extension() == ".exr") {
@@ -244,6 +246,8 @@ TEST_F(ViewerTest, SavesTheWindowAndTheRendering) {
   }
   EXPECT_EQ(exr, 1u);
   EXPECT_EQ(png, 1u);
+  play("click Dismiss\n");
+  EXPECT_EQ(viewer_->notice(), "");
 }
 
 TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
@@ -252,6 +256,35 @@ TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
   EXPECT_THAT(refusalOf("click \"Max\n"), HasSubstr("a quote has no end"));
   EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
   EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
+}
+
+TEST_F(ViewerTest, WaitingForSamplesThatCannotComeFails) {
+  EXPECT_THAT(refusalOf("key G\nwait spp 100\n"),
+              HasSubstr("script.txt:2: the rendering has ended at its limit, with 2 samples per pixel; wait for"));
+  play("set \"Stop at spp\" 3\nwait spp 3\nset Pause on\nset \"Stop at spp\" 5\nset Pause off\nwait spp 5\n");
+  EXPECT_EQ(viewer_->session().snapshot()->passes, 5u);
+}
+
+TEST_F(ViewerTest, ACameraBeyondAllDistancesSeesNothing) {
+  const std::string shown = "wait idle\npick 20 20\nwait idle\nset Show cut-size\nwait idle\nset Show none\n";
+  for (const char* far :
+       {"view 0 0 1e19 0 0 1 0 1 0 0.5 1 perspective", "view 1e30 -1e38 1e19 0 0 1 0 1 0 0.5 1e38 perspective",
+        "scroll 250 60 -400", "scroll 250 60 -400\nscroll 250 60 -400", "view 0 0 5 0 0 1 0 1 0 1e20 1 orthographic",
+        "scroll 250 60 -400", "drag middle 300 200 340 220", "key R\nscroll 250 60 1000\nscroll 250 60 1000"}) {
+    play(far + std::string("\n") + shown);
+    EXPECT_EQ(viewer_->session().snapshot()->error, "") << far;
+    EXPECT_EQ(viewer_->session().snapshot()->passes, 2u) << far;
+    EXPECT_TRUE(isFinite(viewOf(*scene_, viewer_->state().settings).position)) << far;
+    for (const Vec3& pixel : *viewer_->session().snapshot()->radiance) ASSERT_TRUE(isFinite(pixel)) << far;
+  }
+  play("key R\nscroll 250 60 -1\nwait idle\n");
+  EXPECT_LT(glm::length(viewOf(*scene_, viewer_->state().settings).position), 1e4f);
+}
+
+TEST_F(ViewerTest, AClipboardThatNestsWithoutEndHoldsNoView) {
+  window_->setClipboard("{\"position\": " + std::string(100'000, '[') + std::string(100'000, ']') + "}");
+  play("key Ctrl+V\n");
+  EXPECT_THAT(viewer_->problem(), HasSubstr("camera from the clipboard: JSON nested more than 128 deep"));
 }
 
 TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {
@@ -309,12 +342,12 @@ TEST_F(ViewerTest, ViewsAreKeptAndGoneBackTo) {
   play("drag left 300 200 340 220\nkey Ctrl+3\n");
   const Camera kept = *viewer_->state().settings.view;
   play("drag right 300 200 340 220\nclick \"Keep view\"\nkey R\nkey Shift+3\n");
-  EXPECT_TRUE(sameView(*viewer_->state().settings.view, kept));
+  EXPECT_TRUE(isSameView(*viewer_->state().settings.view, kept));
   EXPECT_EQ(viewer_->state().settings.strategy, Strategy::kCellCut) << "Shift+3 is no strategy";
   play("set Bookmarks \"view 1\"\n");
-  EXPECT_FALSE(sameView(*viewer_->state().settings.view, kept));
+  EXPECT_FALSE(isSameView(*viewer_->state().settings.view, kept));
   play("set Bookmarks \"view 3\"\n");
-  EXPECT_TRUE(sameView(*viewer_->state().settings.view, kept));
+  EXPECT_TRUE(isSameView(*viewer_->state().settings.view, kept));
 }
 
 TEST_F(ViewerTest, RecentFilesOutliveTheWindow) {
@@ -415,156 +448,6 @@ TEST_F(ViewerTest, TrialsThatAreStoppedChangeNothing) {
   play("wait idle\nset \"Max cut\" 64\nkey I\nkey I\nwait idle\n");
   EXPECT_FALSE(viewer_->trade().has_value());
   EXPECT_EQ(viewer_->state().settings.sampler.maxCut, 64);
-}
-
-TEST_F(ViewerTest, AWindowWithoutAreaIsNoReasonToStop) {
-  play("wait idle\n");
-  window_->post(KeyChange{Key::kW, true});
-  viewer_->frame(1.0 / 60);
-  for (const PixelSize size : {PixelSize{0, 0}, PixelSize{300, 0}, PixelSize{0, 300}}) {
-    window_->resize(size);
-    viewer_->frame(1.0 / 60);
-    EXPECT_GT(viewer_->sleepSeconds(), 0) << "nothing is drawn: it sleeps";
-  }
-  window_->post(KeyChange{Key::kW, false});
-  viewer_->frame(1.0 / 60);
-  window_->resize({400, 720});
-  play("wait idle\n");
-  const Camera there = *viewer_->state().settings.view;
-  play("wait idle\n");
-  EXPECT_TRUE(sameView(*viewer_->state().settings.view, there)) << "the key that was released flies no farther";
-  window_->resize({1, 1});
-  play("wait idle\nsize 400 720\nwait idle\n");
-  EXPECT_EQ(viewer_->problem(), "");
-}
-
-/// A window whose context is lost for some frames.
-class FlakyWindow final : public MemoryWindow {
- public:
-  explicit FlakyWindow(PixelSize size) : MemoryWindow(size), inner_(openWindow(WindowKind::kEgl, {.size = size})) {}
-  WindowKind kind() const override { return inner_->kind(); }
-  void makeCurrent() override {
-    if (lost) throw GlError("the context is lost");
-    inner_->makeCurrent();
-  }
-  bool lost = false;
-
- private:
-  std::unique_ptr<Window> inner_;
-};
-
-TEST_F(ViewerTest, AContextThatFailsIsWaitedForAndThenGivenUp) {
-  viewer_.reset();
-  auto flaky = std::make_unique<FlakyWindow>(PixelSize{400, 720});
-  FlakyWindow& window = *flaky;
-  window_ = std::move(flaky);
-  open({});
-  play("wait idle\n");
-  window.lost = true;
-  for (int i = 0; i < 5; ++i) viewer_->frame(1.0 / 60);
-  EXPECT_THAT(viewer_->problem(), HasSubstr("lost"));
-  window.lost = false;
-  play("click Dismiss\nwait idle\nset Strategy power\nwait idle\n");
-  EXPECT_EQ(viewer_->problem(), "");
-  // A framebuffer that no driver has.
-  window.resize({100'000, 100'000});
-  viewer_->frame(1.0 / 60);
-  EXPECT_NE(viewer_->problem(), "");
-  window.resize({400, 720});
-  play("click Dismiss\nwait idle\n");
-  window.lost = true;
-  const auto forEver = [this] {
-    for (int i = 0; i < 1000; ++i) viewer_->frame(1.0 / 60);
-  };
-  EXPECT_THROW(forEver(), GlError);
-  window.lost = false;  // for what the viewer gives back
-  window.makeCurrent();
-}
-
-/// A window that holds every thread that wakes it: nothing beside the UI gets on, as if a scene were being built.
-class HoldingWindow final : public MemoryWindow {
- public:
-  explicit HoldingWindow(PixelSize size) : MemoryWindow(size), inner_(openWindow(WindowKind::kEgl, {.size = size})) {}
-  WindowKind kind() const override { return inner_->kind(); }
-  void makeCurrent() override {
-    inner_->makeCurrent();
-    const std::lock_guard lock(mutex_);
-    lastFrame_ = Clock::now();
-  }
-  void wake() noexcept override {
-    std::unique_lock lock(mutex_);
-    ++held_;
-    // A UI that draws no frame waits for us: it is let go on, and found out.
-    while (!free_ && !stuck_) {
-      released_.wait_until(lock, lastFrame_ + kPatience);
-      stuck_ = !free_ && Clock::now() >= lastFrame_ + kPatience;
-    }
-    --held_;
-    lock.unlock();
-    MemoryWindow::wake();
-  }
-  void release() {
-    const std::lock_guard lock(mutex_);
-    free_ = true;
-    released_.notify_all();
-  }
-  int held() const {
-    const std::lock_guard lock(mutex_);
-    return held_;
-  }
-  /// Whether the UI has drawn nothing for two minutes while threads were held.
-  bool stuck() const {
-    const std::lock_guard lock(mutex_);
-    return stuck_;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::minutes kPatience{2};  ///< of any frame, on a busy machine
-  std::unique_ptr<Window> inner_;
-  mutable std::mutex mutex_;
-  std::condition_variable released_;
-  Clock::time_point lastFrame_ = Clock::now();
-  int held_ = 0;
-  bool free_ = false, stuck_ = false;
-};
-
-TEST_F(ViewerTest, SessionsThatEndAreNotWaitedFor) {
-  viewer_.reset();
-  auto holding = std::make_unique<HoldingWindow>(PixelSize{400, 720});
-  HoldingWindow& window = *holding;
-  window_ = std::move(holding);
-  open({});
-  const auto untilHeld = [&](int sessions) {
-    while (window.held() < sessions && !window.stuck()) {
-      viewer_->frame(1.0 / 60);
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-  };
-  untilHeld(1);
-  viewer_->state().duel = true;
-  untilHeld(2);
-  window.post(KeyChange{Key::kJ, true});
-  window.post(KeyChange{Key::kJ, false});
-  untilHeld(3);
-  // The picture, the duel and the reference stand still. All of them are edited and ended, again and again.
-  for (int i = 0; i < 3; ++i) {
-    viewer_->state().duel = false;
-    viewer_->state().settings.strategy = Strategy::kPower;
-    viewer_->frame(1.0 / 60);
-    viewer_->state().duel = true;
-    viewer_->state().opponent = Strategy::kUniform;
-    window.post(KeyChange{Key::kJ, true});
-    window.post(KeyChange{Key::kJ, false});
-    for (int frame = 0; frame < 5; ++frame) viewer_->frame(1.0 / 60);
-  }
-  viewer_->state().duel = false;
-  viewer_->frame(1.0 / 60);
-  EXPECT_FALSE(window.stuck());
-  window.release();
-  play("wait idle\n");
-  EXPECT_EQ(viewer_->problem(), "");
-  EXPECT_TRUE(viewer_->session().snapshot()->sampler.grid == std::nullopt);
 }
 
 }  // namespace

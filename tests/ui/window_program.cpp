@@ -65,9 +65,7 @@ void panel(Gui& gui, Seen& seen) {
   if (before != seen.text.data()) say("text " + std::string(seen.text.data()));
   const std::string field = report("field");
   ImGui::Checkbox("tone map", &seen.toneMap);
-  ImGui::PushFont(gui.monospace());
   ImGui::Text("0.1234 %6d clicks", seen.clicks);
-  ImGui::PopFont();
   ImGui::End();
   if (ImGui::GetFrameCount() == 3) say(button + '\n' + field + "\nready");
   if (gui.keyPressed(Key::kF2)) say("F2 " + std::to_string(++seen.keys));
@@ -77,7 +75,7 @@ void panel(Gui& gui, Seen& seen) {
 int run(const std::optional<std::string>& pictureFile) {
   OpenedWindow opened = openAnyWindow({.size = {640, 400}, .title = "cellcut test"});
   Window& window = *opened.window;
-  say("window " + std::string(windowKindName(window.kind())) + (opened.notice.empty() ? "" : ": " + opened.notice));
+  say("window " + std::string(nameOf(window.kind())) + (opened.notice.empty() ? "" : ": " + opened.notice));
   const char* const scale = std::getenv("CELLCUT_UI_SCALE");
   Gui gui(window, {.scale = scale != nullptr ? std::strtof(scale, nullptr) : 1});
   ImageView view;

@@ -65,9 +65,7 @@ std::optional<std::size_t> clusterAt(std::span<const ClusterRow> rows, const Pro
     if (rows[i].cluster.distant || box.empty()) continue;
     std::vector<Vec2> corners;
     for (unsigned corner = 0; corner < 8; ++corner) {
-      const auto at = project({(corner & 1 ? box.upper : box.lower).x, (corner & 2 ? box.upper : box.lower).y,
-                               (corner & 4 ? box.upper : box.lower).z});
-      if (at) corners.push_back(*at);
+      if (const auto at = project(box.corner(corner))) corners.push_back(*at);
     }
     if (corners.size() < 8) continue;
     const std::vector<Vec2> hull = convexHull(std::move(corners));

@@ -55,12 +55,6 @@ std::vector<double> logTicks(const ValueRange& range, bool integral) {
 
 }  // namespace
 
-std::optional<ScaleKind> scaleFromName(std::string_view name) {
-  if (name == "linear") return ScaleKind::kLinear;
-  if (name == "log") return ScaleKind::kLog;
-  return std::nullopt;
-}
-
 std::optional<ValueRange> autoRange(const Image<float>& values, ScaleKind kind) {
   std::optional<ValueRange> range;
   for (const float value : values) {
@@ -111,11 +105,6 @@ Rgba8 over(const Rgba8& below, const Rgba8& above) {
   }
   mixed.a = static_cast<std::uint8_t>((sum + 127) / 255);
   return mixed;
-}
-
-void blendOver(ImageRgba8& image, const ImageRgba8& overlay) {
-  assert(image.width() == overlay.width() && image.height() == overlay.height());
-  for (std::size_t i = 0; i < image.size(); ++i) image[i] = over(image[i], overlay[i]);
 }
 
 std::string shortNumber(double value, int digits) {

@@ -16,8 +16,10 @@
 namespace cellcut {
 
 enum class ScaleKind : std::uint8_t { kLinear, kLog };
-/// "linear" or "log".
-std::optional<ScaleKind> scaleFromName(std::string_view name);
+
+constexpr std::string_view nameOf(ScaleKind kind) {
+  return kind == ScaleKind::kLog ? "log" : "linear";
+}
 
 struct ValueRange {
   double minimum;
@@ -66,9 +68,6 @@ using Rgba8 = glm::vec<4, std::uint8_t>;  ///< sRGB and alpha, not premultiplied
 
 /// One colour over another, in integers rounded to nearest: the same on every machine.
 Rgba8 over(const Rgba8& below, const Rgba8& above);
-
-/// Lays `overlay` over `image`. \pre of the same size
-void blendOver(ImageRgba8& image, const ImageRgba8& overlay);
 
 struct LegendTick {
   double value;

@@ -22,13 +22,6 @@ const ColormapTable& tableOf(Colormap colormap) {
 
 }  // namespace
 
-std::optional<Colormap> colormapFromName(std::string_view name) {
-  for (const ColormapName& c : kColormaps) {
-    if (c.name == name) return c.colormap;
-  }
-  return std::nullopt;
-}
-
 Rgb8 colorOf(Colormap colormap, double t) {
   assert(!std::isnan(t));
   const auto index = static_cast<std::size_t>(std::clamp(t * 256, 0.0, 255.0));

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include <glm/vec3.hpp>
@@ -28,7 +27,6 @@ inline constexpr std::array kColormaps{
 constexpr std::string_view nameOf(Colormap colormap) {
   return kColormaps[static_cast<std::size_t>(colormap)].name;
 }
-std::optional<Colormap> colormapFromName(std::string_view name);
 
 using Rgb8 = glm::vec<3, std::uint8_t>;  ///< sRGB, as a screen shows it
 

@@ -109,13 +109,6 @@ bool hasSize(const Image<Pixel>* image, glm::ivec2 size) {
 
 }  // namespace
 
-std::optional<Overlay> overlayFromName(std::string_view name) {
-  for (const OverlayName& o : kOverlays) {
-    if (o.name == name) return o.overlay;
-  }
-  return std::nullopt;
-}
-
 std::optional<Image<float>> computeOverlay(Overlay overlay, const OverlayInputs& inputs, glm::ivec2 size,
                                            const std::atomic<bool>& cancel) {
   assert(!inputs.firstHits || hasSize(inputs.firstHits, size));

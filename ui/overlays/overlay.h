@@ -61,7 +61,6 @@ inline constexpr std::array kOverlays{
 constexpr const OverlayName& describe(Overlay overlay) {
   return kOverlays[static_cast<std::size_t>(overlay)];
 }
-std::optional<Overlay> overlayFromName(std::string_view name);
 
 /// What overlays are read from. What is null is not there, and its overlays have no values.
 struct OverlayInputs {

@@ -17,11 +17,6 @@ constexpr double kNearShare = 1e-4;
 /// Least probability that has a colour of its own, relative to the largest.
 constexpr double kProbabilityDecades = 1e-3;
 
-Vec3 cornerOf(const Bounds& box, int corner) {
-  return {corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
-          corner & 4 ? box.upper.z : box.lower.z};
-}
-
 /// A point in the camera's frame: right, up, and forward in metres.
 glm::dvec3 toView(const Camera& camera, const Vec3& p) {
   const glm::dvec3 d = glm::dvec3(p) - glm::dvec3(camera.position);
@@ -156,14 +151,14 @@ void appendCross(std::vector<Segment>& segments, const Vec3& centre, float size,
 
 void appendBox(std::vector<Segment>& segments, const Bounds& box, const Rgba8& color) {
   if (box.empty()) return;
-  for (int corner = 0; corner < 8; ++corner) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {
       if ((corner >> axis & 1) != 0 || box.lower[axis] == box.upper[axis]) continue;
       // In a box that is flat on another axis the edges of both sides are one.
       bool doubled = false;
       for (int other = 0; other < 3; ++other)
         doubled |= (corner >> other & 1) != 0 && box.lower[other] == box.upper[other];
-      if (!doubled) segments.push_back({cornerOf(box, corner), cornerOf(box, corner | 1 << axis), color});
+      if (!doubled) segments.push_back({box.corner(corner), box.corner(corner | 1u << axis), color});
     }
   }
 }

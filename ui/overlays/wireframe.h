@@ -41,9 +41,9 @@ std::vector<Segment> clusterSegments(std::span<const ClusterInspection> clusters
 /// Distances of the first hits along the unit camera rays; infinite where nothing was hit.
 Image<float> depthOf(const Image<FirstHit>& firstHits);
 
-/// Draws lines of one pixel's width, later ones above earlier ones; `image` may be
-/// transparent. A pixel is drawn where the line is not farther than
-/// the first hit by more than a two-hundredth of its distance: boxes touch the surfaces that they are about.
+/// Draws lines of one pixel's width, later ones above earlier ones; `image` may be transparent. A pixel is drawn where
+/// the line is not farther than the first hit by more than a two-hundredth of its distance: boxes touch the surfaces that
+/// they are about.
 /// \pre `image` and `depth` have the size that the camera was asked with
 void drawSegments(ImageRgba8& image, const Image<float>& depth, const Camera& camera,
                   std::span<const Segment> segments);

@@ -1,6 +1,7 @@
 #include "ui/viewer/camera_control.h"
 
 #include "renderer/base/error.h"
+#include "renderer/scene/gltf_container.h"
 
 #include <nlohmann/json.hpp>
 
@@ -39,9 +40,10 @@ nlohmann::json toJson(const Vec3& v) {
 
 }  // namespace
 
-bool sameView(const Camera& a, const Camera& b) {
-  return a.orthographic == b.orthographic && a.position == b.position && a.right == b.right && a.up == b.up &&
-         a.back == b.back && a.halfHeight == b.halfHeight;
+bool isUsable(const CameraPose& pose) {
+  const Camera& c = pose.camera;
+  return isFinite(c.position) && isFinite(c.up) && isFinite(c.right) && c.halfHeight > 0 &&
+         std::isfinite(c.halfHeight) && pose.focus > 0 && std::isfinite(pose.focus);
 }
 
 CameraPose poseOf(const Camera& camera, const Bounds& scene) {
@@ -105,6 +107,7 @@ std::string poseToJson(const CameraPose& pose) {
 CameraPose poseFromJson(const std::string& text, const Bounds& scene) {
   const std::string place = "camera from the clipboard";
   try {
+    checkJsonShape(text, place);
     const auto json = nlohmann::json::parse(text);
     Camera camera;
     camera.position = vectorOf(json, "position");
@@ -114,11 +117,9 @@ CameraPose poseFromJson(const std::string& text, const Bounds& scene) {
     camera.back = glm::normalize(back);
     camera.right = glm::normalize(glm::cross(up, camera.back));
     camera.up = glm::cross(camera.back, camera.right);
-    const bool valid = isFinite(camera.position) && isFinite(camera.up) && isFinite(camera.right) &&
-                       camera.halfHeight > 0 && std::isfinite(camera.halfHeight);
     CameraPose pose = poseOf(camera, scene);
     pose.focus = json.value("focus", pose.focus);
-    if (!valid || !(pose.focus > 0) || !std::isfinite(pose.focus)) throw InputError(place, "its numbers are no view");
+    if (!isUsable(pose)) throw InputError(place, "its numbers are no view; copy one with Ctrl+C first");
     return pose;
   } catch (const nlohmann::json::exception&) {
     throw InputError(place, "the clipboard holds no camera; copy one with Ctrl+C first");

@@ -19,8 +19,8 @@ struct CameraPose {
   Vec3 target() const { return camera.position - focus * camera.back; }
 };
 
-/// Whether both show the same; names aside.
-bool sameView(const Camera& a, const Camera& b);
+/// Whether its numbers are finite, with a lens that is open and a focus before it.
+bool isUsable(const CameraPose& pose);
 
 /// A camera as the scene has it; it looks at the middle of what the scene holds, as far as that lies before it.
 CameraPose poseOf(const Camera& camera, const Bounds& scene);

@@ -1,12 +1,11 @@
 #include "ui/viewer/convergence.h"
 
+#include "renderer/base/exact_number.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/worker_pool.h"
-#include "ui/viewer/script_recorder.h"
+#include "ui/viewer/is_ready.h"
 
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 namespace cellcut {
 namespace {
@@ -42,7 +41,7 @@ void Convergence::offer(const std::shared_ptr<const Snapshot>& s, std::shared_pt
 }
 
 void Convergence::update() {
-  if (!busy() || pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!isReady(pending_)) return;
   const ConvergencePoint point = pending_.get();
   if (pendingNumber_ == number_) run_.points.push_back(point);
 }

@@ -11,22 +11,21 @@ constexpr double kIdleShare = 0.06;
 }  // namespace
 
 void FrameLoop::step() {
-  const auto secondsSince = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
   const double sleep = viewer_.sleepSeconds();
   window_.pollEvents();
   if (sleep > 0 && !window_.hasInput()) {
     window_.waitEvents(sleep);
     const double rest = frameSeconds_ * (1 / kIdleShare - 1);
-    while (!window_.hasInput() && !window_.shouldClose() && !viewer_.hasNewsOfEdits() && secondsSince(ended_) < rest) {
-      window_.waitEvents(std::min(sleep, rest - std::min(rest, secondsSince(ended_))));
+    while (!window_.hasInput() && !window_.shouldClose() && !viewer_.hasNewsOfEdits() && sinceEnd_.seconds() < rest) {
+      window_.waitEvents(std::min(sleep, rest - std::min(rest, sinceEnd_.seconds())));
     }
   }
-  const double elapsed = secondsSince(began_);
-  began_ = Clock::now();
+  const double elapsed = sinceBegin_.seconds();
+  sinceBegin_ = {};
   viewer_.frame(elapsed);
-  ended_ = Clock::now();
+  sinceEnd_ = {};
   // Waiting for the display costs nobody anything.
-  frameSeconds_ = std::chrono::duration<double>(ended_ - began_).count() - window_.swapSeconds();
+  frameSeconds_ = sinceBegin_.seconds() - window_.swapSeconds();
 }
 
 }  // namespace cellcut

@@ -2,10 +2,9 @@
 /// When the next frame of a viewer is drawn: at once for input, now and then for news of the rendering.
 #pragma once
 
+#include "renderer/base/stopwatch.h"
 #include "ui/viewer/viewer.h"
 #include "ui/window.h"
-
-#include <chrono>
 
 namespace cellcut {
 
@@ -20,11 +19,9 @@ class FrameLoop {
   double frameSeconds() const { return frameSeconds_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   Viewer& viewer_;
   Window& window_;
-  Clock::time_point began_ = Clock::now(), ended_ = began_;
+  Stopwatch sinceBegin_, sinceEnd_;  ///< of the last frame
   double frameSeconds_ = 0;
 };
 

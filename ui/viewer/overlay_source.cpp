@@ -1,9 +1,9 @@
 #include "ui/viewer/overlay_source.h"
 
+#include "renderer/scene/camera.h"
 #include "ui/viewer/is_ready.h"
 
 #include <atomic>
-#include <chrono>
 
 namespace cellcut {
 /// First hits change with the view alone: kept from overlay to overlay.
@@ -17,7 +17,7 @@ struct OverlaySource::Cache {
   const Image<FirstHit>* of(const SessionView& view, const std::atomic<bool>& cancel) {
     const Camera& now = viewOf(*view.scene, view.settings);
     const glm::ivec2 wanted(view.settings.width, view.settings.height);
-    if (scene.lock() == view.scene && size == wanted && sameView(camera, now)) return &hits;
+    if (scene.lock() == view.scene && size == wanted && isSameView(camera, now)) return &hits;
     std::optional<Image<FirstHit>> traced = traceFirstHits(*view.scene, view.accel, now, wanted, cancel);
     if (!traced) return nullptr;
     scene = view.scene;

@@ -38,6 +38,7 @@ struct ViewerFacts {
   bool trying;          ///< settings are being tried
   const Trade* trade;   ///< what that said of what is rendered; null: nothing yet
   std::string problem;  ///< of the last file or edit, for a person; empty: none
+  std::string notice;   ///< what was saved last; empty: nothing
 };
 
 /// What a person asked for by a button or a key: at most one per frame.
@@ -51,7 +52,7 @@ enum class ViewerCommand {
   kCopyCamera,
   kPasteCamera,
   kSingleStep,
-  kDismiss,  ///< the problem
+  kDismiss,  ///< the problem and the notice
   kUnpick,
   kExportCut,
   kSolo,  ///< only the selected lights
@@ -75,7 +76,7 @@ void drawDuelPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& stat
 void drawOverlayPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
 void drawStatisticsPanel(Widgets& widgets, const ViewerFacts& facts);
 ViewerCommand drawInspectorPanel(Widgets& widgets, const ViewerFacts& facts, ViewerState& state);
-ViewerCommand drawProblem(Widgets& widgets, const ViewerFacts& facts);
+ViewerCommand drawMessages(Widgets& widgets, const ViewerFacts& facts);
 void drawHelp(bool& open);
 /// The bar that says which colour is which number, in a corner of the picture.
 /// \param area  of the picture, framebuffer pixels

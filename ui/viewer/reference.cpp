@@ -1,9 +1,7 @@
 #include "ui/viewer/reference.h"
 
-#include "ui/viewer/camera_control.h"
+#include "renderer/scene/camera.h"
 #include "ui/viewer/is_ready.h"
-
-#include <chrono>
 
 namespace cellcut {
 
@@ -13,7 +11,7 @@ bool Reference::fits(const SessionInput& rendered) const {
   if (!input.scene) return true;
   const RenderSettings& own = input.settings;
   return input.scene == rendered.scene && own.maxDepth == r.maxDepth && own.shownLights == r.shownLights &&
-         sameView(viewOf(*input.scene, own), viewOf(*rendered.scene, r));
+         isSameView(viewOf(*input.scene, own), viewOf(*rendered.scene, r));
 }
 
 void ReferenceMaker::start(SessionInput input, std::uint64_t passes) {
@@ -54,7 +52,6 @@ void ReferenceMaker::end() {
   if (session_) {
     ending_.push_back(std::async(std::launch::async, [session = std::move(session_)]() mutable { session.reset(); }));
   }
-  session_.reset();
   input_ = {};  // its scene may be gone otherwise
 }
 

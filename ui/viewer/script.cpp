@@ -2,10 +2,10 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
+#include "renderer/base/stopwatch.h"
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <sstream>
 
 namespace cellcut {
@@ -13,7 +13,7 @@ namespace {
 
 /// What a frame of a script takes for animations: the same picture on any machine.
 constexpr double kFrameSeconds = 1.0 / 60;
-constexpr std::chrono::minutes kLongestWait{10};
+constexpr double kLongestWait = 600;  // seconds
 /// A person's day of work has a hundredth of it.
 constexpr std::uintmax_t kMaxScriptBytes = std::uintmax_t{1} << 20;
 /// More than panels take to come to rest; what still moves then (a row that scrolls) is taken where it is.
@@ -52,14 +52,6 @@ std::vector<std::string> split(const std::string& text, const std::string& place
   return words;
 }
 
-/// A word as it may be shown: that of a file that is no script is neither short nor text.
-std::string shown(const std::string& word) {
-  std::string text = word.substr(0, 80);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
-
 void checkAction(const ScriptAction& action, const std::string& place) {
   if (action.words[0] == "wait") {
     const bool idle = action.words.size() == 2 && action.words[1] == "idle";
@@ -73,7 +65,7 @@ void checkAction(const ScriptAction& action, const std::string& place) {
     throw InputError(place, "'" + action.words[0] + "' takes " + std::to_string(verb.words - 1) +
                                 " words; names of several words stand in quotes");
   }
-  throw InputError(place, "no action '" + shown(action.words[0]) + "'; cellcut view --help lists them");
+  throw InputError(place, "no action '" + printable(action.words[0]) + "'; cellcut view --help lists them");
 }
 
 std::optional<double> asNumber(const std::string& text) {
@@ -113,13 +105,13 @@ float ScriptPlayer::number(const ScriptAction& action, std::size_t word) const {
   return static_cast<float>(*value);
 }
 
+Vec2 ScriptPlayer::position(const ScriptAction& action, std::size_t word) const {
+  return {number(action, word), number(action, word + 1)};
+}
+
 WidgetItem ScriptPlayer::item(const ScriptAction& action, Stage& stage, const std::string& label) const {
-  const auto start = std::chrono::steady_clock::now();
-  while (!stage.viewer.widgets().find(label) && !stage.viewer.settled() && !stage.viewer.panelsHeld()) {
-    frames(stage, 1);
-    if (std::chrono::steady_clock::now() - start > kLongestWait) fail(action, "waited for ten minutes");
-    stage.window.waitEvents(0.1);
-  }
+  waitUntil(action, stage,
+            [&] { return stage.viewer.widgets().find(label) || stage.viewer.settled() || stage.viewer.panelsHeld(); });
   const WidgetItem* found = stage.viewer.widgets().find(label);
   if (found && !found->visible) {
     stage.viewer.reveal(label);
@@ -180,6 +172,14 @@ class StillPanels {
 };
 
 }  // namespace
+
+void ScriptPlayer::waitUntil(const ScriptAction& action, Stage& stage, const std::function<bool()>& done) const {
+  for (const Stopwatch waited; !done(); frames(stage, 1)) {
+    if (waited.seconds() > kLongestWait) fail(action, "waited for ten minutes");
+    // Until there is news: frames drawn meanwhile would take the cores from the rendering.
+    stage.window.waitEvents(0.1);
+  }
+}
 
 void ScriptPlayer::clickAt(Stage& stage, Vec2 position, MouseButton button) const {
   stage.window.post(MouseMove{position});
@@ -256,6 +256,25 @@ void ScriptPlayer::set(const ScriptAction& action, Stage& stage) const {
   }
 }
 
+void ScriptPlayer::drag(const ScriptAction& action, Stage& stage) const {
+  const std::string& name = action.words[1];
+  const MouseButton button = name == "right"    ? MouseButton::kRight
+                             : name == "middle" ? MouseButton::kMiddle
+                                                : MouseButton::kLeft;
+  const Vec2 from = position(action, 2), to = position(action, 4);
+  stage.window.post(MouseMove{from});
+  frames(stage, 1);
+  stage.window.post(MouseButtonChange{button, true});
+  frames(stage, 1);
+  constexpr int kSteps = 5;
+  for (int i = 1; i <= kSteps; ++i) {
+    stage.window.post(MouseMove{from + (to - from) * (static_cast<float>(i) / kSteps)});
+    frames(stage, 1);
+  }
+  stage.window.post(MouseButtonChange{button, false});
+  frames(stage, 2);
+}
+
 void ScriptPlayer::paste(const ScriptAction& action, Stage& stage) const {
   const auto vector = [&](std::size_t word) {
     return Vec3(number(action, word), number(action, word + 1), number(action, word + 2));
@@ -272,19 +291,23 @@ void ScriptPlayer::paste(const ScriptAction& action, Stage& stage) const {
 }
 
 void ScriptPlayer::wait(const ScriptAction& action, Stage& stage) const {
-  const auto start = std::chrono::steady_clock::now();
   const bool idle = action.words[1] == "idle";
   const double passes = idle ? 0 : static_cast<double>(number(action, 2));
-  for (;;) {
-    frames(stage, 1);
+  frames(stage, 1);
+  int ended = 0;  // frames since the rendering has
+  waitUntil(action, stage, [&] {
     const std::shared_ptr<const Snapshot> snapshot = stage.viewer.session().snapshot();
     const bool done =
         idle ? stage.viewer.atRest() : !snapshot->preview && static_cast<double>(snapshot->passes) >= passes;
-    if (stage.viewer.settled() && done) break;
-    if (std::chrono::steady_clock::now() - start > kLongestWait) fail(action, "waited for ten minutes");
-    // Until there is news: frames drawn meanwhile would take the cores from the rendering.
-    stage.window.waitEvents(0.1);
-  }
+    if (stage.viewer.settled() && done) return true;
+    // More frames than a new size takes to reach the rendering.
+    ended = stage.viewer.reachedLimit() ? ended + 1 : 0;
+    if (!idle && ended > kMostUnsettledFrames) {
+      fail(action, "the rendering has ended at its limit, with " + std::to_string(snapshot->passes) +
+                       " samples per pixel; wait for no more of them, or raise the limit before");
+    }
+    return false;
+  });
   frames(stage, 2);
 }
 
@@ -299,7 +322,7 @@ void ScriptPlayer::expect(const ScriptAction& action, Stage& stage) const {
 
 void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
   const std::vector<std::string>& words = action.words;
-  const auto at = [&](std::size_t word) { return Vec2(number(action, word), number(action, word + 1)); };
+  const auto at = [&](std::size_t word) { return position(action, word); };
   if (words[0] == "size") {
     const Vec2 size = at(1);
     if (!(size.x >= 64 && size.y >= 64 && size.x <= 16384 && size.y <= 16384)) fail(action, "64 to 16384 pixels each");
@@ -317,20 +340,7 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
     frames(stage, 1);
     set(action, stage);
   } else if (words[0] == "drag") {
-    const MouseButton button = words[1] == "right"    ? MouseButton::kRight
-                               : words[1] == "middle" ? MouseButton::kMiddle
-                                                      : MouseButton::kLeft;
-    stage.window.post(MouseMove{at(2)});
-    frames(stage, 1);
-    stage.window.post(MouseButtonChange{button, true});
-    frames(stage, 1);
-    constexpr int kSteps = 5;
-    for (int i = 1; i <= kSteps; ++i) {
-      stage.window.post(MouseMove{at(2) + (at(4) - at(2)) * (static_cast<float>(i) / kSteps)});
-      frames(stage, 1);
-    }
-    stage.window.post(MouseButtonChange{button, false});
-    frames(stage, 2);
+    drag(action, stage);
   } else if (words[0] == "move") {
     stage.window.post(MouseMove{at(1)});
     frames(stage, 2);
@@ -355,7 +365,7 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
     expect(action, stage);
   } else if (words[0] == "screenshot") {
     frames(stage, 1);
-    writeFileAtomically(folder_ / words[1], encodePng(stage.viewer.picture()));
+    writeFileAtomically(writtenFile(folder_ / words[1]), encodePng(stage.viewer.picture()));
   }
 }
 

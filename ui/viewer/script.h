@@ -44,8 +44,8 @@ class ScriptPlayer {
   ScriptPlayer(std::filesystem::path name, std::vector<ScriptAction> actions, std::filesystem::path folder);
 
   /// Plays the script to its end, frame by frame.
-  /// \throws InputError naming the line when a label is not there, an expectation fails, or waiting takes longer than
-  /// ten minutes
+  /// \throws InputError naming the line when a label is not there, an expectation fails, samples are waited for that a
+  /// limit keeps from coming, or waiting takes longer than ten minutes
   void play(Viewer& viewer, Window& window);
 
  private:
@@ -59,8 +59,11 @@ class ScriptPlayer {
   void press(Stage& stage, const std::string& keys) const;
   void type(Stage& stage, const std::string& text) const;
   void set(const ScriptAction& action, Stage& stage) const;
+  /// Draws frames with the news that come in.
+  void waitUntil(const ScriptAction& action, Stage& stage, const std::function<bool()>& done) const;
   void wait(const ScriptAction& action, Stage& stage) const;
   void expect(const ScriptAction& action, Stage& stage) const;
+  void drag(const ScriptAction& action, Stage& stage) const;
   void paste(const ScriptAction& action, Stage& stage) const;
   /// Where it can be clicked: waits for it and scrolls to it.
   WidgetItem item(const ScriptAction& action, Stage& stage, const std::string& label) const;
@@ -68,6 +71,7 @@ class ScriptPlayer {
   WidgetItem still(const ScriptAction& action, Stage& stage, const std::string& label) const;
   [[noreturn]] void failMissing(const ScriptAction& action, const Stage& stage, const std::string& label) const;
   float number(const ScriptAction& action, std::size_t word) const;
+  Vec2 position(const ScriptAction& action, std::size_t word) const;
   [[noreturn]] void fail(const ScriptAction& action, const std::string& problem) const;
 
   std::filesystem::path name_;

@@ -1,8 +1,9 @@
 #include "ui/viewer/script_recorder.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/exact_number.h"
+#include "renderer/base/image_io.h"
 
-#include <charconv>
 #include <stdexcept>
 
 namespace cellcut {
@@ -19,23 +20,9 @@ std::string asWord(const std::string& word) {
   return word.empty() || word.find_first_of(" \t#") != std::string::npos ? '"' + word + '"' : word;
 }
 
-template <class Number>
-std::string shortest(Number value) {
-  char text[64];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  return {text, end};
-}
-
 }  // namespace
 
-std::string exactNumber(float value) {
-  return shortest(value);
-}
-std::string exactNumber(double value) {
-  return shortest(value);
-}
-
-ScriptRecorder::ScriptRecorder(const std::filesystem::path& file) : file_(file), stream_(file) {
+ScriptRecorder::ScriptRecorder(const std::filesystem::path& file) : file_(file), stream_(writtenFile(file)) {
   if (!stream_) throw InputError(file.string(), "cannot be written; name a file in a folder that is there");
   stream_ << "# Recorded by cellcut; replay with: cellcut view --script FILE SCENE\n" << std::flush;
   if (!stream_) throw InputError(file.string(), "cannot be written; make room or choose another place");

@@ -56,8 +56,4 @@ class ScriptRecorder {
   bool pictureChanges_ = false;
 };
 
-/// The shortest text that is read back as this number.
-std::string exactNumber(float value);
-std::string exactNumber(double value);
-
 }  // namespace cellcut

@@ -1,12 +1,9 @@
 #include "ui/viewer/viewer.h"
 
-#include "renderer/base/error.h"
+#include "renderer/scene/camera.h"
 #include "renderer/trace/light_mask.h"
 #include "ui/gl_error.h"
 #include "ui/viewer/is_ready.h"
-
-#include <chrono>
-#include <ctime>
 
 #include <imgui.h>
 #include <nlohmann/json.hpp>
@@ -19,9 +16,11 @@ constexpr float kPanelLetters = 25;
 /// Frames in a row that OpenGL may fail in before the viewer gives up: what is short of memory may get it, what is lost
 /// for good never works again.
 constexpr int kMostGlFailures = 40;
+
+/// Of what can change while the viewer runs: `sampling`, `threads`, `niceness` and `auxiliary` are what it began with.
 bool sameSettings(const RenderSettings& a, const RenderSettings& b) {
   const bool sameCamera =
-      a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || sameView(*a.view, *b.view));
+      a.camera == b.camera && a.view.has_value() == b.view.has_value() && (!a.view || isSameView(*a.view, *b.view));
   return sameCamera && a.width == b.width && a.height == b.height && a.maxDepth == b.maxDepth &&
          a.strategy == b.strategy && a.seed == b.seed && a.sampler == b.sampler && a.shownLights == b.shownLights;
 }
@@ -31,21 +30,7 @@ bool sameInput(const SessionInput& a, const SessionInput& b) {
          a.timeLimit == b.timeLimit && a.noiseLimit == b.noiseLimit && a.paused == b.paused;
 }
 
-bool sameOverlay(const ViewerState& a, const ViewerState& b) {
-  return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid &&
-         a.overlay.slice == b.overlay.slice && a.pick == b.pick;
-}
-
 }  // namespace
-
-std::string timeStamp() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-  return text;
-}
 
 Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader loader, ViewerOptions options)
     : window_(window),
@@ -100,49 +85,17 @@ bool Viewer::atRest() const {
   return settled() && measured;
 }
 
+bool Viewer::reachedLimit() const {
+  const bool limited = applied_.passLimit || applied_.timeLimit || applied_.noiseLimit;
+  return limited && !state_.paused && snapshot_->error.empty() && atRest();
+}
+
 void Viewer::guarded(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::exception& error) {
     problem_ = error.what();
   }
-}
-
-void Viewer::open(const std::filesystem::path& file) {
-  const std::filesystem::path kind = file.extension();
-  if (kind == ".exr" || kind == ".pfm") {
-    if (loadingReference_.valid()) return;
-    loadingReference_ = std::async(std::launch::async, [file] {
-      return Reference{std::make_shared<const ImageRgb>(readImage(file)), {}, 0};
-    });
-    return;
-  }
-  if (loading_.valid()) return;  // one at a time; the file can be dropped again
-  loadingFile_ = file;
-  loading_ = std::async(std::launch::async, [loader = loader_, file] { return loader(file); });
-}
-
-void Viewer::takeScene() {
-  if (!isReady(loading_)) return;
-  guarded([this] {
-    scene_ = loading_.get();
-    options_.file = loadingFile_;
-    problem_.clear();
-    state_.settings.camera = std::min(state_.settings.camera, scene_->cameras.size() - 1);
-    state_.settings.view.reset();
-    state_.settings.shownLights.reset();
-    state_.bookmarks = {};
-    state_.pick.reset();
-    state_.selectedCluster.reset();
-    state_.selectedLight = 0;
-    pointedBefore_.reset();
-    trials_.stop();
-    trade_.reset();  // and with it the scene before
-    recent_.add(options_.file);
-    pose_ = poseOf(scene_->cameras[state_.settings.camera], scene_->bounds);
-    window_.setTitle("cellcut: " + options_.file.filename().string());
-    edited_ = true;
-  });
 }
 
 void Viewer::takeNews() {
@@ -153,7 +106,7 @@ void Viewer::takeNews() {
   if (panelsHeld_) return;
   takeScene();
   takeReference();
-  if (isReady(saving_)) guarded([this] { problem_ = saving_.get(); });
+  if (isReady(saving_)) guarded([this] { notice_ = saving_.get(); });
   const std::shared_ptr<const Snapshot> newest = session_.snapshot();
   if (newest != snapshot_) {
     snapshot_ = newest;
@@ -227,7 +180,6 @@ void Viewer::drawFrame(double seconds) {
   drawOverPicture();
 
   framebuffer_->clear({0.09f, 0.09f, 0.1f, 1});
-  framebuffer_->bind();
   if (!view_.imageSize().empty()) {
     ImageViewSettings display = state_.display;
     display.overlayOpacity = 1;  // is in the overlay's own alpha
@@ -257,11 +209,11 @@ void Viewer::drawPanels() {
                             .run = convergence_.run(),
                             .secondRun = duel_ ? &secondConvergence_.run() : nullptr,
                             .kept = keptRuns_};
-  const ViewerFacts facts{*scene_, *snapshot_,     overlay(),
-                          stored_, second_.get(),  recent_.list(),
-                          errors,  trials_.busy(), trade_ && trade_->fits(applied_) ? &*trade_ : nullptr,
-                          problem_};
-  run(drawProblem(shown_, facts));
+  const ViewerFacts facts{*scene_,  *snapshot_,     overlay(),
+                          stored_,  second_.get(),  recent_.list(),
+                          errors,   trials_.busy(), trade_ && trade_->fits(applied_) ? &*trade_ : nullptr,
+                          problem_, notice_};
+  run(drawMessages(shown_, facts));
   if (loading_.valid()) ImGui::TextWrapped("loading %s …", loadingFile_.filename().string().c_str());
   run(drawInspectorPanel(shown_, facts, state_));
   run(drawRenderPanel(shown_, facts, state_));
@@ -303,7 +255,8 @@ void Viewer::run(ViewerCommand command) {
     case ViewerCommand::kSingleStep:
       return session_.singleStep();
     case ViewerCommand::kDismiss:
-      return problem_.clear();
+      problem_.clear();
+      return notice_.clear();
     case ViewerCommand::kUnpick:
       return state_.pick.reset();
     case ViewerCommand::kSolo:
@@ -399,51 +352,6 @@ void Viewer::applyEdits() {
   }
   generation_ = session_.edit(std::move(input));
   if (newScene) sceneGeneration_ = generation_;
-}
-
-bool Viewer::overlayWanted() const {
-  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick ||
-         state_.overlay.slice.axis != SliceAxis::kNone;
-}
-
-bool Viewer::overlayIsCurrent() const {
-  // Anew when something else is asked for, and whenever the number of samples has grown by a tenth.
-  return overlay_ && overlay_->generation == snapshot_->generation && sameOverlay(overlayState_, state_) &&
-         10 * snapshot_->passes <= 11 * overlayPasses_;
-}
-
-void Viewer::requestOverlay() {
-  if (!overlayWanted()) {
-    overlay_.reset();
-    return;
-  }
-  if (overlays_.busy() || snapshot_->generation < generation_ || overlayIsCurrent()) return;
-  overlayState_ = state_;
-  overlayPasses_ = snapshot_->passes;
-  overlays_.request(session_, state_.overlay, state_.pick, reference_.picture);
-}
-
-void Viewer::refreshOverlay() {
-  overlays_.wait();
-  overlays_.take();
-  overlayState_ = state_;
-  overlayPasses_ = session_.snapshot()->passes;
-  overlays_.request(session_, state_.overlay, state_.pick, reference_.picture);
-  overlays_.wait();
-}
-
-void Viewer::save() {
-  if (saving_.valid()) return;  // one at a time
-  const std::filesystem::path stem = options_.saveFolder / ("cellcut-" + timeStamp());
-  const std::vector<std::byte> png = encodePng(framebuffer_->read());
-  writeFileAtomically(stem.string() + ".png", png);
-  // The layers are the session's to make; compressing them takes as long as a pass.
-  saving_ = std::async(std::launch::async, [stem = stem.string(), made = overlays_.layers(session_)]() mutable {
-    LayeredImage layers = made.get();
-    layers.metadata["software"] = "cellcut";
-    writeExr(stem + ".exr", layers);
-    return "saved " + stem + ".png and .exr";
-  });
 }
 
 }  // namespace cellcut

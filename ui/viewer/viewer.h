@@ -42,9 +42,6 @@ struct ViewerOptions {
   std::optional<std::uint64_t> sizeSettleFrames = 3;  ///< frames of one size before the rendering follows the window
 };
 
-/// "20260131-235959", for names of files.
-std::string timeStamp();
-
 class Viewer {
  public:
   /// \pre the window's context is current, in every member. The window outlives the viewer.
@@ -76,6 +73,7 @@ class Viewer {
   RenderSession& session() { return session_; }
   const OverlayPicture* overlay() const { return overlay_ ? &*overlay_ : nullptr; }
   const std::string& problem() const { return problem_; }
+  const std::string& notice() const { return notice_; }
   PixelRect imageArea() const { return area_; }
   ImagePlacement placement() const { return placement_; }
   /// Whether the snapshot that is shown is of the newest edit and nothing is being loaded or looked up.
@@ -85,6 +83,8 @@ class Viewer {
   bool hasNewsOfEdits() const;
   /// Whether nothing is left to do: no pass, no turn of a duel, no reference, no measurement.
   bool atRest() const;
+  /// Whether it is at rest for a limit's sake: without an edit no sample comes any more.
+  bool reachedLimit() const;
   const Reference& reference() const { return reference_; }
   const Convergence& convergence() const { return convergence_; }
   const std::vector<ConvergenceRun>& keptRuns() const { return keptRuns_; }
@@ -183,8 +183,8 @@ class Viewer {
   std::uint64_t overlayPasses_ = 0;  ///< of the snapshot at that request
   bool overlayDrawn_ = false;
   std::optional<std::size_t> pointedBefore_;
-  bool pointing_ = false;  ///< at another cluster than a frame ago: its row is drawn in the next one
-  std::string problem_;
+  bool pointing_ = false;         ///< at another cluster than a frame ago: its row is drawn in the next one
+  std::string problem_, notice_;  ///< as ViewerFacts'
   std::future<std::shared_ptr<const Scene>> loading_;
   std::filesystem::path loadingFile_;
   RecentFiles recent_;

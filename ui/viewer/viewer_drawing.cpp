@@ -10,7 +10,43 @@ namespace {
 /// Radius around a point light that counts as its box, pixels at scale 1.
 constexpr float kPointSlack = 6;
 
+bool sameOverlay(const ViewerState& a, const ViewerState& b) {
+  return a.overlay.overlay == b.overlay.overlay && a.overlay.grid == b.overlay.grid &&
+         a.overlay.slice == b.overlay.slice && a.pick == b.pick;
+}
+
 }  // namespace
+
+bool Viewer::overlayWanted() const {
+  return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick ||
+         state_.overlay.slice.axis != SliceAxis::kNone;
+}
+
+bool Viewer::overlayIsCurrent() const {
+  // Anew when something else is asked for, and whenever the number of samples has grown by a tenth.
+  return overlay_ && overlay_->generation == snapshot_->generation && sameOverlay(overlayState_, state_) &&
+         10 * snapshot_->passes <= 11 * overlayPasses_;
+}
+
+void Viewer::requestOverlay() {
+  if (!overlayWanted()) {
+    overlay_.reset();
+    return;
+  }
+  if (overlays_.busy() || snapshot_->generation < generation_ || overlayIsCurrent()) return;
+  overlayState_ = state_;
+  overlayPasses_ = snapshot_->passes;
+  overlays_.request(session_, state_.overlay, state_.pick, reference_.picture);
+}
+
+void Viewer::refreshOverlay() {
+  overlays_.wait();
+  overlays_.take();
+  overlayState_ = state_;
+  overlayPasses_ = session_.snapshot()->passes;
+  overlays_.request(session_, state_.overlay, state_.pick, reference_.picture);
+  overlays_.wait();
+}
 
 void Viewer::showOverlay() {
   const bool sameColours =
@@ -82,14 +118,10 @@ void Viewer::drawCluster(std::size_t row, unsigned color) const {
     }
     return;
   }
-  const auto corner = [&](unsigned c) {
-    return whereSeen(
-        {(c & 1 ? box.upper : box.lower).x, (c & 2 ? box.upper : box.lower).y, (c & 4 ? box.upper : box.lower).z});
-  };
   for (unsigned c = 0; c < 8; ++c) {
     for (const unsigned axis : {1u, 2u, 4u}) {
       if (c & axis) continue;
-      const std::optional<Vec2> a = corner(c), b = corner(c | axis);
+      const std::optional<Vec2> a = whereSeen(box.corner(c)), b = whereSeen(box.corner(c | axis));
       if (a && b) list->AddLine(ImVec2(a->x, a->y), ImVec2(b->x, b->y), color, 2 * gui_.scale());
     }
   }

@@ -1,4 +1,5 @@
 /// What a person's keys and mouse do to the picture, and how it is written down.
+#include "renderer/base/exact_number.h"
 #include "renderer/scene/camera.h"
 #include "ui/viewer/viewer.h"
 
@@ -57,9 +58,7 @@ ViewerCommand Viewer::readKeys(double seconds) {
     return ViewerCommand::kRecallView;
   }
   for (std::size_t i = 0; i < kStrategies.size(); ++i) {
-    if (gui_.keyPressed(static_cast<Key>(static_cast<int>(Key::k1) + static_cast<int>(i)))) {
-      state_.settings.strategy = kStrategies[i].strategy;
-    }
+    if (gui_.keyPressed(digit(i))) state_.settings.strategy = kStrategies[i].strategy;
   }
   if (gui_.keyPressed(Key::kO)) {
     const auto count = static_cast<int>(kOverlays.size());
@@ -121,6 +120,7 @@ CameraPose Viewer::pose() const {
 }
 
 void Viewer::setPose(const CameraPose& pose) {
+  if (!isUsable(pose)) return;  // the wheel turned until the numbers ended: the camera stays
   pose_ = pose;
   state_.settings.view = pose.camera;
 }

@@ -1,9 +1,6 @@
-/// References, errors against them, and duels; bookmarks and recent files.
+/// References, errors against them, and duels; bookmarks.
 #include "ui/viewer/is_ready.h"
 #include "ui/viewer/viewer.h"
-
-#include <chrono>
-#include <ctime>
 
 namespace cellcut {
 
@@ -76,21 +73,10 @@ void Viewer::endDuel() {
   // Its session may be building a scene: a person does not wait for that.
   std::erase_if(ending_, [](const auto& ending) { return isReady(ending); });
   ending_.push_back(std::async(std::launch::async, [duel = std::move(duel_)]() mutable { duel.reset(); }));
-  duel_.reset();
   second_.reset();
   secondShown_.reset();
   view_.clearImage(ImageSlot::kB);
   stored_ = false;
-}
-
-void Viewer::saveCsv() {
-  std::vector<ConvergenceRun> runs{convergence_.run()};
-  if (duel_) runs.push_back(secondConvergence_.run());
-  runs.insert(runs.end(), keptRuns_.begin(), keptRuns_.end());
-  const std::string text = toCsv(runs);
-  const std::filesystem::path file = options_.saveFolder / ("cellcut-" + timeStamp() + ".csv");
-  writeFileAtomically(file, std::as_bytes(std::span(text)));
-  problem_ = "saved " + file.string();
 }
 
 void Viewer::keepView() {
@@ -99,10 +85,6 @@ void Viewer::keepView() {
 
 void Viewer::recallView() {
   if (state_.bookmarks[state_.chosen]) setPose(*state_.bookmarks[state_.chosen]);
-}
-
-void Viewer::openRecent() {
-  if (state_.chosen < recent_.list().size()) open(recent_.list()[state_.chosen]);
 }
 
 }  // namespace cellcut

@@ -1,9 +1,9 @@
 #include "ui/viewer/widgets.h"
 
-#include "ui/viewer/script_recorder.h"
+#include "renderer/base/exact_number.h"
+#include "ui/input_event.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 
 #include <imgui.h>
@@ -38,22 +38,17 @@ std::string hidden(const char* label) {
   return std::string("##") + label;
 }
 
-bool sameText(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 }  // namespace
 
 const WidgetItem* Widgets::find(std::string_view label) const {
-  const auto found =
-      std::find_if(items_.begin(), items_.end(), [&](const WidgetItem& item) { return sameText(item.label, label); });
+  const auto found = std::find_if(items_.begin(), items_.end(),
+                                  [&](const WidgetItem& item) { return equalIgnoringCase(item.label, label); });
   return found == items_.end() ? nullptr : &*found;
 }
 
 const WidgetItem* Widgets::findOption(std::string_view name) const {
   const auto found = std::find_if(items_.begin(), items_.end(), [&](const WidgetItem& item) {
-    return item.kind == WidgetItem::Kind::kOption && sameText(item.label, name);
+    return item.kind == WidgetItem::Kind::kOption && equalIgnoringCase(item.label, name);
   });
   return found == items_.end() ? nullptr : &*found;
 }
@@ -63,7 +58,7 @@ void Widgets::remember(WidgetItem::Kind kind, const char* label, std::string val
   const float middle = 0.5f * (lower.y + upper.y), top = ImGui::GetWindowPos().y;
   const bool visible = middle >= top && middle < top + ImGui::GetWindowHeight();
   items_.push_back({kind, label, std::move(value), {lower.x, lower.y}, {upper.x, upper.y}, visible});
-  if (!reveal_.empty() && sameText(reveal_, label)) ImGui::SetScrollHereY(0.5f);
+  if (!reveal_.empty() && equalIgnoringCase(reveal_, label)) ImGui::SetScrollHereY(0.5f);
 }
 
 bool Widgets::section(const char* title, bool beginsOpen) {
