@@ -14,8 +14,8 @@ struct CurvePoint {
   double y = 0;  ///< ≥ 0
 };
 
-/// y at x on the broken line through the points on logarithmic axes, on which a Monte Carlo error is straight; linear in y
-/// where one of the two ends is 0. Outside of the points the nearest one: what was not measured is not claimed.
+/// y at x on the broken line through the points on logarithmic axes, on which a Monte Carlo error is straight; linear
+/// in y where one of the two ends is 0. Outside of the points the nearest one: what was not measured is not claimed.
 /// \pre at least one point, x ascending
 double interpolateLogLog(std::span<const CurvePoint> curve, double x);
 

@@ -30,10 +30,10 @@ Estimate estimateMean(std::span<const double> values, double confidence = kConfi
 
 /// Geometric mean with Student's interval of the logarithms: for errors and for times.
 ///
-/// Errors are positive, skewed towards large values (a rare bright path makes one run worse, none makes it much better),
-/// compared by their ratios and drawn on logarithmic axes. On that scale a few runs are much nearer to a normal
-/// distribution, a bound is never negative, and the intervals of relMSE and of its root say the same. Where a number is not
-/// positive, which an error is only without any noise, it is estimateMean().
+/// Errors are positive, skewed towards large values (a rare bright path makes one run worse, none makes it much
+/// better), compared by their ratios and drawn on logarithmic axes. On that scale a few runs are much nearer to a
+/// normal distribution, a bound is never negative, and the intervals of relMSE and of its root say the same. Where a
+/// number is not positive, which an error is only without any noise, it is estimateMean().
 /// \pre at least one number
 Estimate estimatePositive(std::span<const double> values, double confidence = kConfidence);
 

@@ -10,8 +10,8 @@ struct ImageComparison {
   double mse = 0;      ///< mean over channels and pixels of (A − B)²
   double relmse = 0;   ///< mean over channels and pixels of (A − B)² / (B² + ε)
   double epsilon = 0;  ///< ε = 0.01 · mean(B)², mean over channels and pixels
-  /// Mean over channels and pixels of |A − B| / (|A| + |B| + ε), ε = 0.01 · mean(B): [0, 1]. Source: Vogels et al. 2018,
-  /// "Denoising with Kernel Prediction and Asymmetric Loss Functions", doi:10.1145/3197517.3201388, whose ε
+  /// Mean over channels and pixels of |A − B| / (|A| + |B| + ε), ε = 0.01 · mean(B): [0, 1]. Source: Vogels et al.
+  /// 2018, "Denoising with Kernel Prediction and Asymmetric Loss Functions", doi:10.1145/3197517.3201388, whose ε
   /// is 0.01 in the pictures' own unit.
   double smape = 0;
   double flip = 0;     ///< mean over pixels of HDR-ꟻLIP, flip.h
@@ -24,9 +24,9 @@ struct ImageComparison {
 /// \pre the pictures have the same size and are not empty
 ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b);
 
-/// Estimate of the reference's own relMSE from two unbiased pictures of the same with noise that is independent of each other's
-/// and of the reference's: mean of (A − R)(B − R) / (R² + ε), in which only the error that both comparisons share, the
-/// reference's, does not average out. May come out negative where that is small.
+/// Estimate of the reference's own relMSE from two unbiased pictures of the same with noise that is independent of each
+/// other's and of the reference's: mean of (A − R)(B − R) / (R² + ε), in which only the error that both comparisons
+/// share, the reference's, does not average out. May come out negative where that is small.
 /// \pre as compareImages
 double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference);
 

@@ -22,8 +22,8 @@ struct QualityChoice {
 
 /// Tries `candidates` on the scene of `renderer`, on films of a sixteenth of its pixels (at least 64×36, where it has
 /// them), whose samples are thrown away.
-/// Candidates that this rendering cannot tell apart (those of a strategy without cuts) are tried as one. `renderer` then
-/// has the chosen settings, and renders the picture of a renderer that was made with them, bit for bit.
+/// Candidates that this rendering cannot tell apart (those of a strategy without cuts) are tried as one. `renderer`
+/// then has the chosen settings, and renders the picture of a renderer that was made with them, bit for bit.
 ///
 /// The choice depends on how long things take: another run may choose otherwise.
 /// \param cancel  ends the trials when it becomes true

@@ -34,13 +34,6 @@ double budgetOf(const PlannedLength& length, double scale, const std::vector<Tri
   return roomOf(length, scale) * pass;
 }
 
-/// Mean over the pixels' channels, so that squares neither overflow nor vanish in it.
-double unitOf(const ImageRgb& mean) {
-  double sum = 0;
-  for (const Vec3& p : mean) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
-  return sum / static_cast<double>(mean.size());
-}
-
 /// Means of all films in blocks of kGroupSide² pixels, one of each group: a pixel's own mean after a few passes may be
 /// black, or all of it one sample.
 ImageRgb blockMeans(const std::vector<const FilmState*>& films) {
@@ -61,7 +54,7 @@ ImageRgb blockMeans(const std::vector<const FilmState*>& films) {
 std::vector<double> variances(const FilmState& film, const ImageRgb& blocks) {
   std::vector<double> result;
   result.reserve(film.mean.size());
-  const double unit = unitOf(blocks);
+  const double unit = meanOfChannels(blocks);  // squares neither overflow nor vanish in it
   const auto n = static_cast<double>(film.passes);
   for (int y = 0; y < film.mean.height(); ++y) {
     for (int x = 0; x < film.mean.width(); ++x) {
@@ -177,7 +170,7 @@ std::vector<QualityTrial> judgeTrials(std::span<const Quality> candidates,
   }
   if (passes[0].size() < kLeastPasses) return trials;
   const ImageRgb blocks = blockMeans(judged);
-  if (!(unitOf(blocks) > 0)) return trials;
+  if (!(meanOfChannels(blocks) > 0)) return trials;
   std::vector<std::vector<double>> pixels;
   pixels.reserve(judged.size());
   for (const FilmState* film : judged) pixels.push_back(variances(*film, blocks));

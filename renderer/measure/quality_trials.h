@@ -17,11 +17,11 @@
 
 namespace cellcut {
 
-/// The part of a rendering's seconds that trials may take. 5 % is what is promised; the rest of it is for what nobody can
-/// give up half-way: a tile, and judging.
+/// The part of a rendering's seconds that trials may take. 5 % is what is promised; the rest of it is for what nobody
+/// can give up half-way: a tile, and judging.
 inline constexpr double kTrialShare = 0.045;
-/// A pixel of a small film takes up to so many times as long as one of the picture, whose neighbours are nearer and share
-/// more of the caches (160×90 against 640×360: 1.4 in `rooms`, direct light, 1.8 in `kinds`, depth 5).
+/// A pixel of a small film takes up to so many times as long as one of the picture, whose neighbours are nearer and
+/// share more of the caches (160×90 against 640×360: 1.4 in `rooms`, direct light, 1.8 in `kinds`, depth 5).
 inline constexpr double kSmallFilmCost = 2;
 /// Passes of a setting, after which more would say little.
 inline constexpr std::size_t kMostTrialPasses = 64;
@@ -63,9 +63,9 @@ struct QualityTrial {
 
 /// Numbers that nothing is known of are NaN: those of settings with fewer than three passes.
 ///
-/// Variances are divided by the squared means of 4×4 pixels of all films, and those above what a hundredth of all pixels
-/// exceeds count as that: samples so rare that a few passes meet them by chance say nothing about a setting. The intervals
-/// are Student's over 16 interleaved groups of pixels and over the passes but the first.
+/// Variances are divided by the squared means of 4×4 pixels of all films, and those above what a hundredth of all
+/// pixels exceeds count as that: samples so rare that a few passes meet them by chance say nothing about a setting. The
+/// intervals are Student's over 16 interleaved groups of pixels and over the passes but the first.
 /// \param films  by candidate, of one size and independent samples; those with fewer than two passes are not looked at
 std::vector<QualityTrial> judgeTrials(std::span<const Quality> candidates,
                                       const std::vector<std::vector<TrialPass>>& passes,

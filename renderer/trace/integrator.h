@@ -14,7 +14,7 @@ namespace cellcut {
 
 class LightMask;
 
-/// What paths did, in order, for benchmarks that do the same again piece by piece.
+/// What paths did, in order: for benchmarks that do the same again piece by piece, and for tests.
 struct PathRecord {
   struct TracedRay {
     Ray ray;

@@ -1,6 +1,7 @@
 #include "renderer/trace/live_picture.h"
 
 #include "renderer/base/error.h"
+#include "renderer/scene/camera.h"
 #include "renderer/trace/worker_pool.h"
 
 #include <tuple>
@@ -18,13 +19,6 @@ void check(const SessionInput& input) {
     throw InputError("camera " + std::to_string(input.settings.camera),
                      "the scene has " + std::to_string(cameras) + "; choose one of these");
   }
-}
-
-bool isSameView(const Camera& a, const Camera& b) {
-  // The bindings stop to compile when a member is added. The name is no part of the picture.
-  const auto& [name, orthographic, position, right, up, back, halfHeight] = a;
-  return std::tie(orthographic, position, right, up, back, halfHeight) ==
-         std::tie(b.orthographic, b.position, b.right, b.up, b.back, b.halfHeight);
 }
 
 bool haveSameFilm(const RenderSettings& a, const RenderSettings& b) {

@@ -7,7 +7,7 @@
 namespace cellcut {
 namespace {
 
-/// The standard normal's quantile at kNoiseConfidence.
+/// The standard normal's quantile at 0.97.
 constexpr double kNormalQuantile = 1.8808;
 
 double square(double x) {
@@ -41,17 +41,11 @@ double expectedError(const Moments& part, const Moments& whole) {
   return 0.5 * (across(part, other) + across(other, part)) / whole.n;
 }
 
-double meanOf(const ImageRgb& image) {
-  double sum = 0;
-  for (const Vec3& p : image) sum += (static_cast<double>(p.x) + p.y + p.z) / 3;
-  return sum / static_cast<double>(image.size());
-}
-
 }  // namespace
 
 NoiseEstimate estimateNoise(const FilmState& part, const FilmState& whole) {
   assert(part.passes >= 2 && whole.passes >= part.passes + 2 && part.mean.size() == whole.mean.size());
-  const double unit = meanOf(whole.mean);
+  const double unit = meanOfChannels(whole.mean);
   if (!(unit > 0)) return {0, 0};
   const double scale = 1 / unit;  // squares neither overflow nor vanish
   double sum = 0, squares = 0;

@@ -10,12 +10,12 @@
 
 namespace cellcut {
 
-/// After passes 16, 20, 25, 32, 40, 50, 64 …: who looks after every pass stops at the first one that happens to look good.
-/// Keeps 72 bytes per pixel from pass 8 on.
+/// After passes 16, 20, 25, 32, 40, 50, 64 …: who looks after every pass stops at the first one that happens to look
+/// good. Keeps 72 bytes per pixel from pass 8 on.
 class NoiseWatch {
  public:
-  /// To be called after every pass, once or more often; whether noise() is new. One that begins in the middle knows nothing
-  /// until it has met half of the passes.
+  /// To be called after every pass, once or more often; whether noise() is new. One that begins in the middle knows
+  /// nothing until it has met half of the passes.
   bool look(const Film& film);
 
   /// Of the last look; infinite before the first.

@@ -13,10 +13,10 @@ namespace cellcut {
 
 /// What the size of the film does not change: a smaller film gets the same view with fewer pixels.
 ///
-/// A pass is startPass(); renderTile() once for every tile, in any order; and, unless it was cancelled, the film's commit
-/// and keepCounts(). A pass that was not kept leaves no trace. The film is bit for bit the same for any order of tiles on
-/// any number of threads. Threads: renderTile() may run concurrently for different tiles; the rest by one thread at a
-/// time, and not during renderTile().
+/// A pass is startPass(); renderTile() once for every tile, in any order; and, unless it was cancelled, the film's
+/// commit and keepCounts(). A pass that was not kept leaves no trace. The film is bit for bit the same for any order of
+/// tiles on any number of threads. Threads: renderTile() may run concurrently for different tiles; the rest by one
+/// thread at a time, and not during renderTile().
 class PassRenderer {
  public:
   /// Everything outlives it. \pre the settings are within their ranges and their camera exists

@@ -11,7 +11,8 @@
 
 namespace cellcut {
 
-/// What depends on the scene alone, and GgxAlbedo's table where the scene needs it. The scene must outlive it. Threads: const members may run concurrently.
+/// What depends on the scene alone, and GgxAlbedo's table where the scene needs it. The scene must outlive it.
+/// Threads: const members may run concurrently.
 struct PreparedScene {
   /// Builds on the threads of the calling TBB arena.
   /// \throws std::bad_alloc, std::runtime_error as Accel does

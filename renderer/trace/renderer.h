@@ -35,8 +35,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// One more sample per pixel. Returns false, with the film as it was, when `cancel` became true first, or when it takes
-  /// more than `seconds`, looked at before every tile. The film is bit for bit the same on any number of threads.
+  /// One more sample per pixel. Returns false, with the film as it was, when `cancel` became true first, or when it
+  /// takes more than `seconds`, looked at before every tile. The film is bit for bit the same on any number of threads.
   bool renderPass(const std::atomic<bool>& cancel, double seconds = std::numeric_limits<double>::infinity());
 
   const Film& film() const;

@@ -24,10 +24,10 @@
 ///         → kApplying   an edit came; the workers have stopped
 ///     every state → the thread's end: the destructor was called; the workers have stopped
 ///
-/// An edit bumps the generation and raises a flag that workers look at before every pixel: the pass in flight is dropped
-/// without a trace. Edits that arrive before the driver comes to them replace each other: the last one wins. A snapshot
-/// never shows anything but the generation that it names. A preview alone is let finish for kPreviewGrace, so that a
-/// camera that moves all the time is seen moving; one that takes longer makes the next one coarser.
+/// An edit bumps the generation and raises a flag that workers look at before every pixel: the pass in flight is
+/// dropped without a trace. Edits that arrive before the driver comes to them replace each other: the last one wins. A
+/// snapshot never shows anything but the generation that it names. A preview alone is let finish for kPreviewGrace, so
+/// that a camera that moves all the time is seen moving; one that takes longer makes the next one coarser.
 #pragma once
 
 #include "renderer/trace/session_input.h"
@@ -69,10 +69,10 @@ class RenderSession {
   /// Whether nothing is left to do, edits and steps that were just asked for included.
   bool atRest() const;
 
-  /// Runs `f(const SessionView&)` on the driver as soon as all edits before this call are answered, inside the arena that
-  /// scenes are built on. Rendering goes on meanwhile to the end of the pass; an edit waits for it, so that what takes
-  /// longer than a frame looks at SessionView::cancel. What `f` throws comes out of the future. The future is broken
-  /// when there is no picture yet, or no session any more. Before the first edit it waits for that.
+  /// Runs `f(const SessionView&)` on the driver as soon as all edits before this call are answered, inside the arena
+  /// that scenes are built on. Rendering goes on meanwhile to the end of the pass; an edit waits for it, so that what
+  /// takes longer than a frame looks at SessionView::cancel. What `f` throws comes out of the future. The future is
+  /// broken when there is no picture yet, or no session any more. Before the first edit it waits for that.
   template <class Function>
   auto inspect(Function f) -> std::future<std::invoke_result_t<Function&, const SessionView&>> {
     using Result = std::invoke_result_t<Function&, const SessionView&>;

@@ -1,11 +1,12 @@
 /// \file bench_capabilities.cpp
-/// What a scene pays for what it lacks: passes of programs that can have all against passes of programs that cannot have
-/// one thing (renderer/base/capabilities.h), on a scene that has none of them.
+/// What a scene pays for what it lacks: passes of programs that can have all against passes of programs that cannot
+/// have one thing (renderer/base/capabilities.h), on a scene that has none of them.
 ///
-/// Instructions are those that Callgrind counts in a pass, the same in each run but for a few; where valgrind cannot run
-/// them there is a dash. Seconds waver by a per cent with where a program lies in memory, so each round starts programs
-/// anew.
-#include <algorithm>
+/// Instructions are those that Callgrind counts in a pass, the same in each run but for a few; where valgrind cannot
+/// run them there is a dash. Seconds waver by a per cent with where a program lies in memory, so each round starts
+/// programs anew.
+#include "tests/bench/paired.h"
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -95,14 +96,10 @@ void compare(const char* name, const Baseline& with, const Passes& without) {
     if (round % 2 != 0) a = run(with.passes);
     ratios.push_back(a.seconds / b.seconds);
   }
-  std::sort(ratios.begin(), ratios.end());
-  const auto quantile = [&](double share) {
-    return percent(ratios[static_cast<std::size_t>(share * static_cast<double>(ratios.size() - 1))]);
-  };
+  const auto at = [&](double share) { return percent(quantile(ratios, share)); };
   const std::string instructions = with.instructions ? percent(*with.instructions / instructionsOf(without)) : "–";
-  std::printf("| %s | %s | %s (%s to %s) | %td |%s\n", name, instructions.c_str(), quantile(0.5).c_str(),
-              quantile(0.25).c_str(), quantile(0.75).c_str(),
-              static_cast<std::ptrdiff_t>(a.bytes) - static_cast<std::ptrdiff_t>(b.bytes),
+  std::printf("| %s | %s | %s (%s to %s) | %td |%s\n", name, instructions.c_str(), at(0.5).c_str(), at(0.25).c_str(),
+              at(0.75).c_str(), static_cast<std::ptrdiff_t>(a.bytes) - static_cast<std::ptrdiff_t>(b.bytes),
               a.sum == b.sum ? "" : "  the pictures differ");
   std::fflush(stdout);
 }

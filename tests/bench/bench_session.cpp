@@ -22,7 +22,6 @@ class Bell {
  public:
   void ring() {
     const std::lock_guard lock(mutex_);
-    ++rung_;
     changed_.notify_all();
   }
   void waitFor(const std::function<bool()>& seen) {
@@ -33,7 +32,6 @@ class Bell {
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  int rung_ = 0;
 };
 
 SessionInput inputOf(const std::shared_ptr<const Scene>& scene, Strategy strategy) {
@@ -42,12 +40,6 @@ SessionInput inputOf(const std::shared_ptr<const Scene>& scene, Strategy strateg
   input.settings.strategy = strategy;
   input.settings.view = scene->cameras[0];
   return input;
-}
-
-/// Seconds that are not exceeded by a share of the values.
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 void benchIdle(const std::shared_ptr<const Scene>& scene) {

@@ -5,7 +5,6 @@
 #include "tests/support/recipe_scene.h"
 #include "ui/viewer/frame_loop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -23,12 +22,8 @@ double secondsSince(Clock::time_point start) {
 }
 
 /// Milliseconds that half of the values and 95 % of them are not above.
-void print(const char* what, std::vector<double> seconds) {
-  std::sort(seconds.begin(), seconds.end());
-  const auto quantile = [&](double share) {
-    return 1e3 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
-  };
-  std::printf("  %-44s p50 %6.1f ms  p95 %6.1f ms\n", what, quantile(0.5), quantile(0.95));
+void print(const char* what, const std::vector<double>& seconds) {
+  std::printf("  %-44s p50 %6.1f ms  p95 %6.1f ms\n", what, 1e3 * median(seconds), 1e3 * quantile(seconds, 0.95));
 }
 
 class Bench {

@@ -1,13 +1,12 @@
 /// \file fit_qualities.cpp
 /// Fits the presets of --quality over the recipes, and writes what it found: `./dev fit`.
 ///
-/// Settings are tried in turns on every recipe, as `--quality auto` does it, but on larger films and with no more of them at
-/// once: cells that few pixels ask, or that many others' came between, are in no cache, which favours few and small ones
-/// (on 160×90 with all in turn 8 cells along won by 5 %; pictures of 640×360 take 5 to 40 % more time with them for the same
-/// noise). Among their means over the
-/// recipes `balanced` has the least inefficiency (relMSE × seconds), `preview` the shortest pass and `accurate` the least
-/// relMSE at equal samples, of those that are not much less efficient. A preset that is as good as the best, as far as the
-/// trials can tell, stays what it is.
+/// Settings are tried in turns on every recipe, as `--quality auto` does it, but on larger films and with no more of
+/// them at once: cells that few pixels ask, or that many others' came between, are in no cache, which favours few and
+/// small ones (on 160×90 with all in turn 8 cells along won by 5 %; pictures of 640×360 take 5 to 40 % more time with
+/// them for the same noise). Among their means over the recipes `balanced` has the least inefficiency (relMSE ×
+/// seconds), `preview` the shortest pass and `accurate` the least relMSE at equal samples, of those that are not much
+/// less efficient. A preset that is as good as the best, as far as the trials can tell, stays what it is.
 #include "renderer/base/image_io.h"
 #include "renderer/measure/quality_choice.h"
 #include "tests/support/recipe_scene.h"

@@ -16,10 +16,14 @@ inline double secondsOf(const std::function<void()>& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// One of the values, which a share of them is not above.
+inline double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+inline double median(const std::vector<double>& values) {
+  return quantile(values, 0.5);
 }
 
 /// Seconds of two alternatives and the ratio a / b, each the median over rounds; the ratio is taken within a round.

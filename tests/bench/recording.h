@@ -7,8 +7,8 @@
 
 namespace cellcut {
 
-/// Rays and vertices of the first direct-light pass of a scene's first camera, tile by tile as a pass renders them, but ray by
-/// ray.
+/// Rays and vertices of the first direct-light pass of a scene's first camera, tile by tile as a pass renders them, but
+/// ray by ray.
 inline PathRecord recordPass(const Scene& scene, const Accel& accel, const Lights& lights, const LightSampler& sampler,
                              glm::ivec2 size) {
   PathRecord record;

@@ -12,6 +12,7 @@
 #include "tests/support/shading_points.h"
 #include "tests/support/statistics.h"
 #include "tests/support/strategies.h"
+#include "tests/support/vectors.h"
 
 namespace cellcut::test {
 namespace {
@@ -19,11 +20,6 @@ namespace {
 /// Every kind of light by itself.
 constexpr std::array kKinds{LightMix::kPoint, LightMix::kSpot, LightMix::kTriangle, LightMix::kDirectional,
                             LightMix::kEnvironment};
-
-Vec3 unitVector(Rng& rng) {
-  const float z = rng.uniform(-1, 1), azimuth = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
 
 /// Multiplies the lights of each kind by one and the other in turn.
 void scaleInTurn(Scene& scene, float even, float odd) {
@@ -60,12 +56,11 @@ RenderSettings smallPicture(const SamplerVariant& variant) {
 }
 
 ImageRgb finitePicture(Renderer& renderer) {
-  const std::atomic<bool> cancel{false};
-  for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer.renderPass(cancel));
+  ImageRgb picture = renderPasses(renderer, 2);
   EXPECT_EQ(renderer.film().badSamples().nan, 0u);
   EXPECT_EQ(renderer.film().badSamples().inf, 0u);
   for (const Vec3& error : renderer.film().standardError()) EXPECT_TRUE(isFinite(error));
-  return renderer.film().mean();
+  return picture;
 }
 
 class ExtremeLights : public testing::TestWithParam<SamplerVariant> {
@@ -181,7 +176,7 @@ TEST_P(ExtremeLights, AtTheShadingPointItselfAreCountedAsOftenAsTheyAreDrawn) {
     settings.strategy = GetParam().strategy;
     settings.sampler = GetParam().settings;
     Renderer renderer(scene, settings);
-    ASSERT_TRUE(renderer.renderPass(std::atomic<bool>{false}));
+    ASSERT_TRUE(renderer.renderPass(kNever));
     const PreparedScene prepared(scene);
     const double pmf = static_cast<double>(makeLightSampler(prepared, settings)->pmf(point, LightId{0}));
     // One strategy knows that it sends nothing; the others learn it when they sample it.
@@ -263,13 +258,13 @@ TEST_P(ExtremeLights, InsideACellAndOnItsBorderHaveAProbability) {
       }
       Rng rng(6);
       const auto expectSound = [&](const Vec3& p) {
-        const ShadingPoint point{p, unitVector(rng), {}, rng.below(2) == 1};
+        const ShadingPoint point{p, randomUnit(rng), {}, rng.below(2) == 1};
         expectSoundPmfs(GetParam(), *sampler, lights, point);
       };
       for (const Vec3& place : places) {
         expectSound(place);
-        expectSound(nextTo(place, unitVector(rng)));
-        expectSound(nextTo(place, unitVector(rng)));
+        expectSound(nextTo(place, randomUnit(rng)));
+        expectSound(nextTo(place, randomUnit(rng)));
       }
       for (std::size_t i = 0; i < sampleShare(4 * 27); ++i) {
         const auto at = [&](std::size_t turn) { return static_cast<std::int32_t>(turn % 3) - 1; };
@@ -307,7 +302,7 @@ TEST_P(ExtremeLights, CoincidentCollinearCoplanarOrPowersOfTwoApartHaveExactProb
       std::vector<ShadingPoint> points;
       points.reserve(anywhere + 2);
       Rng rng(8);
-      for (std::size_t i = 0; i < anywhere; ++i) points.push_back({2.0f * unitVector(rng), unitVector(rng)});
+      for (std::size_t i = 0; i < anywhere; ++i) points.push_back({2.0f * randomUnit(rng), randomUnit(rng)});
       points.push_back({arrangement.positions[0], {0, 1, 0}});
       points.push_back({0.5f * (arrangement.positions[0] + arrangement.positions[1]), {0, 0, 1}});
       expectSoundAt(lightsAt(kind, arrangement.positions), points, kReach);
@@ -403,7 +398,7 @@ Scene tenMillionLights(LightMix kind, std::size_t count) {
     const float size = 0.2f / std::cbrt(static_cast<float>(count));
     Mesh& mesh = addMesh(scene, addMaterial(scene, emitter(Vec3(1), true)));
     for (const Vec3& p : positions) {
-      const Vec3 u = size * unitVector(rng), v = size * unitVector(rng);
+      const Vec3 u = size * randomUnit(rng), v = size * randomUnit(rng);
       appendTriangle(mesh, p, p + u, p + v);
     }
   }

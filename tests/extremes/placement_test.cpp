@@ -1,4 +1,5 @@
-// Extremes of place together: scenes of a micrometre and of a thousand kilometres, 10,000 of their radii from the origin.
+// Extremes of place together: scenes of a micrometre and of a thousand kilometres, 10,000 of their radii from the
+// origin.
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/recipes/recipe.h"
 #include "renderer/trace/prepared_scene.h"
@@ -108,9 +109,7 @@ TEST(PlacementOfAScene, TurnsNoPathOfTheSameNumbers) {
     if (looksAtPlaces(variant)) continue;
     const auto render = [&](const Scene& scene) {
       Renderer renderer(scene, settingsOf(variant));
-      const std::atomic<bool> cancel{false};
-      for (int pass = 0; pass < 4; ++pass) EXPECT_TRUE(renderer.renderPass(cancel));
-      return renderer.film().mean();
+      return renderPasses(renderer, 4);
     };
     const ImageRgb plain = render(scenes.plain());
     for (const double radius : kRadii) {
@@ -139,8 +138,8 @@ class Placement : public testing::TestWithParam<SamplerVariant> {
     }
   }
 
-  /// Enough for a quarter of the tiles. To look at all lights, or to find a long cut at every vertex, takes many times as
-  /// long.
+  /// Enough for a quarter of the tiles. To look at all lights, or to find a long cut at every vertex, takes many times
+  /// as long.
   static std::size_t passes() {
     const SamplerVariant& variant = GetParam();
     const bool isSlow = variant.strategy == Strategy::kProportional || variant.strategy == Strategy::kPointCut;

@@ -4,6 +4,7 @@
 #include "renderer/scene/tangents.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
+#include "tests/support/images.h"
 #include "tests/support/scaling.h"
 #include "tests/support/shading_points.h"
 #include "tests/support/strategies.h"
@@ -41,8 +42,8 @@ void addTextured(Scene& scene) {
   computeTangents(wall, texture);
 }
 
-/// Lights of all kinds, surfaces whose mirrored lights are asked for: metals and a dielectric of roughness 0.2 to 0.5; and
-/// textures.
+/// Lights of all kinds, surfaces whose mirrored lights are asked for: metals and a dielectric of roughness 0.2 to 0.5;
+/// and textures.
 Scene glossyStage() {
   Scene scene = stage(LightMix::kAll, 120, 4);
   addTextured(scene);
@@ -94,8 +95,7 @@ class PowersOfTwo : public testing::TestWithParam<SamplerVariant> {
     settings.sampler = GetParam().settings;
     settings.auxiliary = true;
     Renderer renderer(scene, settings);
-    const std::atomic<bool> cancel{false};
-    for (int pass = 0; pass < 3; ++pass) EXPECT_TRUE(renderer.renderPass(cancel));
+    renderPasses(renderer, 3);
     EXPECT_EQ(renderer.film().badSamples().nan + renderer.film().badSamples().inf, 0u);
     return renderer.film().layers();
   }

@@ -1,6 +1,6 @@
 /// \file replay.cpp
-/// A fuzz program without a fuzzer: feeds LLVMFuzzerTestOneInput the files of a folder, whole and damaged in ways that are
-/// the same in every run.
+/// A fuzz program without a fuzzer: feeds LLVMFuzzerTestOneInput the files of a folder, whole and damaged in ways that
+/// are the same in every run.
 ///
 /// fuzz_NAME_replay FOLDER. A file that breaks the reader is printed before it does so.
 #include "renderer/base/image_io.h"

@@ -1,6 +1,7 @@
 // Proof 7: the same seed gives the same picture bit for bit, on any number of threads and every time.
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
+#include "tests/support/images.h"
 #include "tests/support/strategies.h"
 
 #include <array>
@@ -57,8 +58,7 @@ TEST_P(Determinism, PictureIsTheSameOnAnyNumberOfThreads) {
     settings.threads = threads;
     settings.seed = 3;
     Renderer renderer(scene, settings);
-    const std::atomic<bool> cancel{false};
-    for (int pass = 0; pass < 3; ++pass) EXPECT_TRUE(renderer.renderPass(cancel));
+    renderPasses(renderer, 3);
     return std::pair(renderer.film().layers(), renderer.rays());
   };
   const auto [expected, expectedRays] = render(1);

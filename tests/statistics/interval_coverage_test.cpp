@@ -2,6 +2,7 @@
 #include "renderer/measure/intervals.h"
 #include "renderer/measure/metrics.h"
 #include "renderer/trace/renderer.h"
+#include "tests/support/images.h"
 #include "tests/support/nightly.h"
 #include "tests/support/recipe_scene.h"
 
@@ -14,7 +15,7 @@
 namespace cellcut::test {
 namespace {
 
-ImageRgb render(const Scene& scene, std::uint64_t seed, int passes) {
+ImageRgb render(const Scene& scene, std::uint64_t seed, std::size_t passes) {
   RenderSettings settings;
   settings.width = 32;
   settings.height = 18;
@@ -22,9 +23,7 @@ ImageRgb render(const Scene& scene, std::uint64_t seed, int passes) {
   settings.seed = seed;
   settings.auxiliary = false;
   Renderer renderer(scene, settings);
-  const std::atomic<bool> cancel{false};
-  for (int i = 0; i < passes; ++i) EXPECT_TRUE(renderer.renderPass(cancel));
-  return renderer.film().mean();
+  return renderPasses(renderer, passes);
 }
 
 TEST(IntervalCoverage, HoldsTheLongRunErrorOfRenderings) {

@@ -5,6 +5,7 @@
 #include "renderer/trace/noise_watch.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
+#include "tests/support/images.h"
 #include "tests/support/recipe_scene.h"
 
 #include <cmath>
@@ -42,11 +43,9 @@ TEST_P(NoiseStop, StopsBelowWhatWasAskedFor) {
   if (isSixteenth()) GTEST_SKIP() << "coverage of few pictures, or against a truth of few passes, says nothing";
   const NoiseCase& c = GetParam();
   const Scene scene = recipeScene(c.recipe, c.lights);
-  const std::atomic<bool> cancel{false};
   Renderer reference(scene, settingsOf(c, 1'000'000));
   // Far more passes than the rule asks for below: what is left of its own error moves what is measured by few per cent.
-  while (reference.film().passes() < 8192) ASSERT_TRUE(reference.renderPass(cancel));
-  const ImageRgb truth = reference.film().mean();
+  const ImageRgb truth = renderPasses(reference, 8192);
   const StopRule rule{.kind = StopRule::Kind::kNoise, .noise = c.noise};
   const std::size_t runs = byDepth(10, 50);
   std::size_t held = 0;
@@ -56,7 +55,7 @@ TEST_P(NoiseStop, StopsBelowWhatWasAskedFor) {
     NoiseWatch noise;
     RenderState state;
     while (!isReached(rule, state)) {
-      ASSERT_TRUE(renderer.renderPass(cancel));
+      ASSERT_TRUE(renderer.renderPass(kNever));
       noise.look(renderer.film());
       state = {.passes = renderer.film().passes(), .relativeError = noise.noise().bound};
     }
@@ -71,7 +70,8 @@ TEST_P(NoiseStop, StopsBelowWhatWasAskedFor) {
   EXPECT_GE(held, runs * 9 / 10);
 }
 
-// Not `hall`: its caustics of tiny emitters take a hundred thousand passes to know, the reference more than the pictures.
+// Not `hall`: its caustics of tiny emitters take a hundred thousand passes to know, the reference more than the
+// pictures.
 INSTANTIATE_TEST_SUITE_P(Recipes, NoiseStop,
                          testing::Values(NoiseCase{"rooms_sobol", Recipe::kRooms, 100, 0.15, PixelSampling::kSobol},
                                          NoiseCase{"rooms_independent", Recipe::kRooms, 100, 0.15,

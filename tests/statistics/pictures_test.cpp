@@ -9,9 +9,9 @@
 namespace cellcut::test {
 namespace {
 
-/// Shadows of unequal lights leave few hits in a dark tile; a tile of 4² pixels with this many paths has thousands. With
-/// half as many the tails of paths between spots are not yet normal: of 1,080 comparisons one had z = 5 where sixteen
-/// times as many passes agree within half a per cent.
+/// Shadows of unequal lights leave few hits in a dark tile; a tile of 4² pixels with this many paths has thousands.
+/// With half as many the tails of paths between spots are not yet normal: of 1,080 comparisons one had z = 5 where
+/// sixteen times as many passes agree within half a per cent.
 std::size_t passes() {
   return isSixteenth() ? 1 : byDepth(512, 4096);
 }

@@ -3,6 +3,7 @@
 #include "renderer/scene/load_scene.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/depth.h"
+#include "tests/support/images.h"
 #include "tests/support/scenes.h"
 
 #include <filesystem>
@@ -47,9 +48,7 @@ double meanLuminance(const Scene& scene) {
   settings.maxDepth = 1;
   settings.auxiliary = false;
   Renderer renderer(scene, settings);
-  const std::atomic<bool> never{false};
-  for (std::size_t pass = 0; pass < sampleShare(64); ++pass) renderer.renderPass(never);
-  const ImageRgb picture = renderer.film().mean();
+  const ImageRgb picture = renderPasses(renderer, sampleShare(64));
   double sum = 0;
   for (const Vec3& pixel : picture) sum += luminance(DVec3(pixel));
   return sum / static_cast<double>(picture.size());

@@ -3,17 +3,16 @@
 #include "renderer/base/rng.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace cellcut::test {
 
 std::vector<Receiver> randomReceivers(std::size_t count, std::uint64_t seed) {
   Rng rng(seed);
-  const auto unit = [&] {
-    const float z = rng.uniform(-1, 1), azimuth = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-    return Vec3(r * std::cos(azimuth), r * std::sin(azimuth), z);
-  };
   std::vector<Receiver> receivers(count);
-  for (Receiver& receiver : receivers) receiver = {0.3f * std::cbrt(rng.uniform()) * unit(), unit()};
+  for (Receiver& receiver : receivers) {
+    receiver = {0.3f * std::cbrt(rng.uniform()) * randomUnit(rng), randomUnit(rng)};
+  }
   return receivers;
 }
 

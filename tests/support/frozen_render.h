@@ -2,19 +2,15 @@
 /// A few passes of a scene with everything that was used still there to be looked at.
 #pragma once
 
-#include "renderer/trace/integrator.h"
+#include "tests/support/images.h"
 
-#include <atomic>
 #include <vector>
 
 namespace cellcut::test {
 
-/// Of what can be cancelled and is not.
-inline const std::atomic<bool> kNever{false};
-
 struct FrozenSettings {
   glm::ivec2 size{32, 24};
-  int passes = 2;
+  std::size_t passes = 2;
   int maxDepth = 3;
   Strategy strategy = Strategy::kCellCut;
   SamplerSettings sampler{.gridResolution = 8, .countVisits = true};

@@ -9,8 +9,8 @@
 namespace cellcut::test {
 
 /// Expects, when its scope ends, that less than 2 s of processor time and 512 MB of memory were taken since it began. A
-/// hang ends the program after a minute of the clock. Under sanitizers ten times these times, and no word of the memory,
-/// most of which is theirs.
+/// hang ends the program after a minute of the clock. Under sanitizers ten times these times, and no word of the
+/// memory, most of which is theirs.
 class HostileBudget {
  public:
   /// \param what         for messages, mostly a file's name

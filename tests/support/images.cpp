@@ -6,6 +6,8 @@
 
 #include <sstream>
 
+#include <gtest/gtest.h>
+
 namespace cellcut::test {
 
 Image<LuminanceEstimate> estimatesOf(const Film& film) {
@@ -20,22 +22,26 @@ Image<LuminanceEstimate> estimatesOf(const Film& film) {
   return result;
 }
 
+ImageRgb renderPasses(Renderer& renderer, std::size_t passes) {
+  for (std::size_t i = 0; i < passes; ++i) EXPECT_TRUE(renderer.renderPass(kNever));
+  return renderer.film().mean();
+}
+
 Image<LuminanceEstimate> renderEstimates(const Scene& scene, RenderSettings settings, std::size_t passes) {
   settings.sampling = PixelSampling::kIndependent;
   settings.auxiliary = false;
   Renderer renderer(scene, settings);
-  const std::atomic<bool> cancel{false};
-  for (std::size_t i = 0; i < passes; ++i) renderer.renderPass(cancel);
+  renderPasses(renderer, passes);
   return estimatesOf(renderer.film());
 }
 
 Film renderPasses(const PathContext& context, glm::ivec2 size, std::size_t passes, std::uint64_t seed,
-                  PathCounts& counts) {
+                  PathCounts& counts, PixelSampling sampling) {
   Film film(size.x, size.y, context.auxiliary);
   for (std::size_t pass = 0; pass < passes; ++pass) {
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
-        PixelSampler random(PixelSampling::kIndependent, seed, x, y, pass);
+        PixelSampler random(sampling, seed, x, y, pass);
         const Sample4 position = random.next();
         const Ray ray = cameraRay(context.scene.cameras[0], Vec2(x, y) + Vec2(position[0], position[1]), size);
         film.record(x, y, tracePath(context, ray, random, counts));

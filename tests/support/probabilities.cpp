@@ -22,7 +22,8 @@ namespace {
 /// Of probabilities that are rounded to floats, each by 6e-8 of itself; and of sums of some thousand floats.
 constexpr double kSumRounding = 1e-5;
 
-/// Whether a point is a corner of a triangle light. It lies in its plane and gets nothing, but for a quadrature's rounding.
+/// Whether a point is a corner of a triangle light. It lies in its plane and gets nothing, but for a quadrature's
+/// rounding.
 bool isCornerOf(const Lights& lights, LightId light, const Vec3& p) {
   if (lights.kind(light) != LightKind::kTriangle) return false;
   const TriangleLight& triangle = lights.triangles()[lights.indexInKind(light)];

@@ -22,7 +22,8 @@ struct Place {
 
   /// Share of what leaves p + d that arrives at p: 0 or 1. The ray starts a millionth off p, ten roundings of a float
   /// there (farther off, shadows of other facets would have moved), and stops a ten-thousandth of its length before the
-  /// light. It is aimed from where it starts: parallel to d it would end behind a light that is seen at a grazing angle.
+  /// light. It is aimed from where it starts: parallel to d it would end behind a light that is seen at a grazing
+  /// angle.
   double visibility(const DVec3& d) const { return !occluders || !blocked(d - kOffset * DVec3(n), 0.9999f) ? 1 : 0; }
   /// The same for what comes from infinity.
   double visibilityTowards(const DVec3& direction) const {

@@ -21,7 +21,8 @@ rlim_t addressSpace() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Whoever changes may no longer look into the own process, as leak checks and HostileBudget do, until it is allowed again.
+/// Whoever changes may no longer look into the own process, as leak checks and HostileBudget do, until it is allowed
+/// again.
 bool becomes(uid_t user) {
   return seteuid(user) == 0 && prctl(PR_SET_DUMPABLE, 1) == 0;
 }

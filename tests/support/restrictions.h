@@ -1,6 +1,6 @@
 /// \file restrictions.h
-/// What a machine may lack: room on its disk, memory, the right to read. Each holds for this process as long as the object
-/// lives.
+/// What a machine may lack: room on its disk, memory, the right to read. Each holds for this process as long as the
+/// object lives.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 #include "tests/support/scenes.h"
 
 #include "renderer/base/rng.h"
+#include "tests/support/vectors.h"
 
 namespace cellcut::test {
 namespace {
@@ -19,11 +20,6 @@ Vec3 lightColor(Rng& rng) {
   return color * std::pow(10.0f, rng.uniform(-1, 1));
 }
 
-Vec3 unitVector(Rng& rng) {
-  const float z = rng.uniform(-1, 1), azimuth = rng.uniform(0, 2 * kPi), r = safeSqrt(1 - z * z);
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
-
 void addPoints(Scene& scene, int count, Rng& rng) {
   for (int i = 0; i < count; ++i) {
     scene.pointLights.push_back({latticeDirection(i, count) * rng.uniform(3, 6), 10.0f * lightColor(rng)});
@@ -34,7 +30,7 @@ void addSpots(Scene& scene, int count, Rng& rng) {
   for (int i = 0; i < count; ++i) {
     const Vec3 position = latticeDirection(i, count) * rng.uniform(3, 6);
     // Half aim at the origin, half past it: points are inside, on the ramp and outside.
-    const Vec3 target = rng.uniform(0, i % 2 == 0 ? 0.5f : 3.0f) * unitVector(rng);
+    const Vec3 target = rng.uniform(0, i % 2 == 0 ? 0.5f : 3.0f) * randomUnit(rng);
     const float outer = rng.uniform(0.3f, 1.2f), inner = outer * rng.uniform(0, 0.9f);
     scene.spotLights.push_back(
         {position, glm::normalize(target - position), 10.0f * lightColor(rng), std::cos(inner), std::cos(outer)});
@@ -53,7 +49,7 @@ void addTriangles(Scene& scene, int count, Rng& rng) {
   for (int i = 0; i < count; ++i) {
     const float distance = rng.uniform(3, 6);
     const Vec3 centre = latticeDirection(i, count) * distance;
-    const Frame frame(unitVector(rng));
+    const Frame frame(randomUnit(rng));
     const float size = angle * distance, turn = rng.uniform(0, 2 * kPi);
     const auto corner = [&](float at) { return centre + size * (std::cos(at) * frame.x + std::sin(at) * frame.y); };
     // Unequal sides.
@@ -62,7 +58,7 @@ void addTriangles(Scene& scene, int count, Rng& rng) {
 }
 
 void addDirectionals(Scene& scene, int count, Rng& rng) {
-  for (int i = 0; i < count; ++i) scene.directionalLights.push_back({unitVector(rng), lightColor(rng)});
+  for (int i = 0; i < count; ++i) scene.directionalLights.push_back({randomUnit(rng), lightColor(rng)});
 }
 
 void addEnvironment(Scene& scene, int texels, Rng& rng) {
@@ -244,7 +240,7 @@ void addLightsAt(Scene& scene, LightMix mix, std::span<const Vec3> positions, st
   if (mix == LightMix::kTriangle) addMesh(scene, addMaterial(scene, emitter(Vec3(1), true)));
   for (const Vec3& p : positions) {
     if (mix == LightMix::kPoint) scene.pointLights.push_back({p, Vec3(1)});
-    if (mix == LightMix::kSpot) scene.spotLights.push_back({p, unitVector(rng), Vec3(1), 0.9f, 0.2f});
+    if (mix == LightMix::kSpot) scene.spotLights.push_back({p, randomUnit(rng), Vec3(1), 0.9f, 0.2f});
     if (mix != LightMix::kTriangle) continue;
     const float size = 0.1f * maxComponent(glm::abs(p));
     appendTriangle(scene.meshes.back(), p, p + size * Vec3(1, 0, 0.3f), p + size * Vec3(-0.2f, 0.9f, 0.1f));

@@ -52,9 +52,9 @@ void addLights(Scene& scene, LightMix mix, int count, std::uint64_t seed);
 
 /// The kinds that have a place.
 inline constexpr std::array kLocalMixes{LightMix::kPoint, LightMix::kSpot, LightMix::kTriangle};
-/// Adds one light of a local kind at each position, 1 W/sr or 1 W/(m² sr): spots that shine in random directions; triangles
-/// that shine from both sides, with their first corner there and edges of about a tenth of the position's largest
-/// coordinate.
+/// Adds one light of a local kind at each position, 1 W/sr or 1 W/(m² sr): spots that shine in random directions;
+/// triangles that shine from both sides, with their first corner there and edges of about a tenth of the position's
+/// largest coordinate.
 void addLightsAt(Scene& scene, LightMix mix, std::span<const Vec3> positions, std::uint64_t seed);
 
 /// A room without a ceiling around the origin: floor, two walls, a box and a rough metal ball, with addLights around it

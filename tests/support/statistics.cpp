@@ -11,8 +11,8 @@
 namespace cellcut::test {
 namespace {
 
-/// Of that many tests, about. Their seeds were seen to pass with all samples; a sixteenth is another draw of them all, one
-/// of which fails an honest build at the level of a single test.
+/// Of that many tests, about. Their seeds were seen to pass with all samples; a sixteenth is another draw of them all,
+/// one of which fails an honest build at the level of a single test.
 constexpr std::size_t kAllComparisons = 1000;
 
 /// Lower regularised gamma function by its series; converges for x < a + 1.

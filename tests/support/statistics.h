@@ -16,8 +16,8 @@ inline constexpr double kAlpha = 0.01;
 double normalTwoSidedTail(double z);
 /// The z with P(|Z| > z) = alpha.
 double normalCritical(double alpha);
-/// Level of each of m comparisons so that all of them together keep `alpha`; where isSixteenth(), together with those of
-/// all other tests. Source: Šidák 1967.
+/// Level of each of m comparisons so that all of them together keep `alpha`; where isSixteenth(), together with those
+/// of all other tests. Source: Šidák 1967.
 double sidak(double alpha, std::size_t comparisons);
 /// |z| beyond which one of m comparisons is refuted at kAlpha over all: 2.58 for 1, 3.40 for 15, 3.78 for 64.
 double criticalZ(std::size_t comparisons);

@@ -45,7 +45,8 @@ inline constexpr std::array kSamplerVariants{
     SamplerVariant{"light_tree", Strategy::kLightTree},
 };
 
-/// Those whose probabilities of a million lights take seconds at a point and not minutes (point-cut) or days (proportional).
+/// Those whose probabilities of a million lights take seconds at a point and not minutes (point-cut) or days
+/// (proportional).
 inline constexpr std::array kFastVariants{
     SamplerVariant{"uniform", Strategy::kUniform}, SamplerVariant{"power", Strategy::kPower},
     SamplerVariant{"cell_cut", Strategy::kCellCut}, SamplerVariant{"light_tree", Strategy::kLightTree}};

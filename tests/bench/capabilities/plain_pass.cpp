@@ -1,10 +1,10 @@
 /// \file plain_pass.cpp
-/// Passes over a scene that has nothing but surfaces and lights with a place, in a program that can or cannot have more:
-/// what bench_capabilities starts and compares.
+/// Passes over a scene that has nothing but surfaces and lights with a place, in a program that can or cannot have
+/// more: what bench_capabilities starts and compares.
 ///
-/// plain_pass SURFACES LIGHTS STRATEGY PASSES, with surfaces `lambertian` or `glossy`, strategy `cell-cut` or `uniform`.
-/// Prints the processor seconds of the fastest pass, the bytes that the renderer keeps, and the sum of the picture, which
-/// what cannot be had must not change.
+/// plain_pass SURFACES LIGHTS STRATEGY PASSES, with surfaces `lambertian` or `glossy`, strategy `cell-cut` or
+/// `uniform`. Prints the processor seconds of the fastest pass, the bytes that the renderer keeps, and the sum of the
+/// picture, which what cannot be had must not change.
 #include "renderer/trace/renderer.h"
 #include "tests/support/scenes.h"
 
@@ -17,8 +17,8 @@
 namespace cellcut {
 namespace {
 
-/// Floor, walls and box, glossy ones with a metal ball. Half of the lights are points, the others triangles; one light is
-/// a point.
+/// Floor, walls and box, glossy ones with a metal ball. Half of the lights are points, the others triangles; one light
+/// is a point.
 Scene plainScene(bool glossy, int lights) {
   Scene scene;
   Material grey = test::lambertian({0.7f, 0.6f, 0.5f});

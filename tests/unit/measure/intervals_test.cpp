@@ -76,8 +76,8 @@ TEST(EstimatePositive, WithZerosIsTheMean) {
   EXPECT_EQ(estimatePositive(values).value, 1);
 }
 
-/// 40 repetitions of a few runs whose errors are skewed as those of renderings: the interval holds the long-run value at
-/// least 34 times (of 38 expected; fewer than 34 happen once in 36 for honest intervals, and the seed is fixed).
+/// 40 repetitions of a few runs whose errors are skewed as those of renderings: the interval holds the long-run value
+/// at least 34 times (of 38 expected; fewer than 34 happen once in 36 for honest intervals, and the seed is fixed).
 TEST(EstimatePositive, IntervalsCoverTheLongRunValue) {
   for (const std::size_t runs : {2u, 5u, 20u}) {
     Rng rng(runs);

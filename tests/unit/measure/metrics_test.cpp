@@ -69,8 +69,8 @@ TEST(CompareImages, RedIsNotBlueToAnyMetric) {
 }
 
 TEST(ReferenceError, IsWhatTwoNoisyPicturesHaveInCommon) {
-  // Truth 1; both pictures are off by up to ± 0.5, the reference by ± 0.1: its relMSE is 0.01/1.01 of itself, the pictures'
-  // own 0.083. 3 · 10⁴ products of a spread of 0.1 leave 6 · 10⁻⁴.
+  // Truth 1; both pictures are off by up to ± 0.5, the reference by ± 0.1: its relMSE is 0.01/1.01 of itself, the
+  // pictures' own 0.083. 3 · 10⁴ products of a spread of 0.1 leave 6 · 10⁻⁴.
   Rng rng(3);
   ImageRgb a(100, 100), b(100, 100), reference(100, 100);
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "renderer/measure/quality_choice.h"
 
+#include "tests/support/images.h"
 #include "tests/support/recipe_scene.h"
 
 #include <algorithm>
@@ -10,17 +11,12 @@
 namespace cellcut {
 namespace {
 
-const std::atomic<bool> kGoOn = false;
-
 class QualityChoiceTest : public testing::Test {
  protected:
   RenderSettings settingsWith(const SamplerSettings& sampler) const {
     return {.width = 64, .height = 36, .maxDepth = 2, .sampler = sampler, .seed = 5};
   }
-  ImageRgb picture(Renderer& renderer) const {
-    for (int pass = 0; pass < 4; ++pass) EXPECT_TRUE(renderer.renderPass(kGoOn));
-    return renderer.film().mean();
-  }
+  ImageRgb picture(Renderer& renderer) const { return test::renderPasses(renderer, 4); }
   void expectThePictureOf(Renderer& renderer, const SamplerSettings& sampler) const {
     Renderer pinned(scene_, settingsWith(sampler));
     const ImageRgb a = picture(renderer), b = picture(pinned);
@@ -42,7 +38,7 @@ TEST_F(QualityChoiceTest, BalancedIsTriedFirstAndEveryPresetIsTried) {
 TEST_F(QualityChoiceTest, PictureIsThatOfTheChosenSettings) {
   const std::vector<Quality> all = autoQualities();
   Renderer renderer(scene_, settingsWith(all.front().settings));
-  const QualityChoice choice = chooseQuality(renderer, all, {.seconds = 10}, kGoOn);
+  const QualityChoice choice = chooseQuality(renderer, all, {.seconds = 10}, test::kNever);
   EXPECT_EQ(choice.trials.size(), all.size());
   EXPECT_EQ(renderer.film().passes(), 0u);
   EXPECT_GT(choice.seconds, 0);
@@ -64,7 +60,7 @@ TEST_F(QualityChoiceTest, SettingsThatAreTheSameForAStrategyAreOneAndNothingIsTr
   RenderSettings settings = settingsWith(all.front().settings);
   settings.strategy = Strategy::kPower;
   Renderer renderer(scene_, settings);
-  const QualityChoice choice = chooseQuality(renderer, all, {.seconds = 100}, kGoOn);
+  const QualityChoice choice = chooseQuality(renderer, all, {.seconds = 100}, test::kNever);
   ASSERT_EQ(choice.trials.size(), 1u);
   EXPECT_EQ(choice.trials[0].passes, 0u);
   EXPECT_EQ(choice.chosen.name, "balanced");
@@ -81,7 +77,7 @@ TEST_F(QualityChoiceTest, CancelledTrialsLeaveBalanced) {
 
 TEST_F(QualityChoiceTest, APassThatIsOutOfTimeLeavesNoTrace) {
   Renderer renderer(scene_, settingsWith({}));
-  EXPECT_FALSE(renderer.renderPass(kGoOn, 0));
+  EXPECT_FALSE(renderer.renderPass(test::kNever, 0));
   EXPECT_EQ(renderer.film().passes(), 0u);
   EXPECT_EQ(renderer.rays().camera, 0u);
   expectThePictureOf(renderer, {});

@@ -48,8 +48,8 @@ TEST_P(InspectorTruth, ContributionsAreThoseOfAnIndependentSum) {
         visible += sum(&inspected.run.accel);
       }
       // Midpoint rules of 24² points over other coordinates: the smooth integrand to a thousandth, a shadow's edge to
-      // the points along it, 1/24, and on average over a cluster's lights to a fraction of that. What is left of a light
-      // that is cut by the horizon is a smaller part of all light.
+      // the points along it, 1/24, and on average over a cluster's lights to a fraction of that. What is left of a
+      // light that is cut by the horizon is a smaller part of all light.
       const double horizon = 1e-5 * report.unoccluded;
       EXPECT_NEAR(row.contribution.unoccluded, unoccluded, 2e-3 * unoccluded + horizon);
       EXPECT_NEAR(row.contribution.visible, visible, 2e-2 * unoccluded + horizon);

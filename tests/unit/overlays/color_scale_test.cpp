@@ -63,9 +63,8 @@ TEST(Colormap, ViridisAndMagmaGetBrighterAllTheWay) {
   }
 }
 
-TEST(Colormap, IsFoundByName) {
-  for (const ColormapName& c : kColormaps) EXPECT_EQ(colormapFromName(c.name), c.colormap);
-  EXPECT_FALSE(colormapFromName("jet"));
+TEST(Colormap, HasItsName) {
+  for (const ColormapName& c : kColormaps) EXPECT_EQ(nameOf(c.colormap), c.name);
 }
 
 TEST(ColorScale, RangeIsThatOfTheFiniteValues) {
@@ -127,15 +126,11 @@ TEST(Colorize, AConstantPictureIsTheMiddleOfTheBar) {
   }
 }
 
-TEST(BlendOver, MixesByAlpha) {
-  ImageRgba8 image(3, 1, {100, 200, 0, 255});
-  ImageRgba8 overlay(3, 1, {200, 0, 255, 128});
-  overlay[1].a = 0;
-  overlay[2].a = 255;
-  blendOver(image, overlay);
-  EXPECT_EQ(image[0], glm::u8vec4(150, 100, 128, 255));
-  EXPECT_EQ(image[1], glm::u8vec4(100, 200, 0, 255));
-  EXPECT_EQ(image[2], glm::u8vec4(200, 0, 255, 255));
+TEST(Over, MixesByAlpha) {
+  const Rgba8 below(100, 200, 0, 255);
+  EXPECT_EQ(over(below, Rgba8(200, 0, 255, 128)), Rgba8(150, 100, 128, 255));
+  EXPECT_EQ(over(below, Rgba8(200, 0, 255, 0)), below);
+  EXPECT_EQ(over(below, Rgba8(200, 0, 255, 255)), Rgba8(200, 0, 255, 255));
 }
 
 TEST(Over, KeepsTheColourOverNothingAndAddsCoverage) {

@@ -234,11 +234,9 @@ TEST(Overlay, NamesAreThoseOfTheCommandLine) {
   std::string names;
   for (const OverlayName& o : kOverlays) {
     names += std::string(o.name) + "|";
-    EXPECT_EQ(overlayFromName(o.name), o.overlay);
     EXPECT_EQ(describe(o.overlay).name, o.name);
   }
   EXPECT_EQ(names, "none|touched|visits|cut-size|estimate|tree-depth|variance|samples|error|nan|");
-  EXPECT_FALSE(overlayFromName("cuts"));
 }
 
 TEST(OverlayStatistics, AreOfTheFiniteValues) {

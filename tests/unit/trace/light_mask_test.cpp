@@ -1,6 +1,7 @@
 #include "renderer/trace/light_mask.h"
 
 #include "renderer/trace/renderer.h"
+#include "tests/support/images.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -11,9 +12,7 @@ namespace {
 ImageRgb render(const Scene& scene, RenderSettings settings, std::shared_ptr<const LightMask> mask) {
   settings.shownLights = std::move(mask);
   Renderer renderer(scene, settings);
-  const std::atomic<bool> never{false};
-  for (int pass = 0; pass < 2; ++pass) renderer.renderPass(never);
-  return renderer.film().mean();
+  return renderPasses(renderer, 2);
 }
 
 /// The paths do not depend on the mask: what some lights and the others contribute adds up sample by sample.
