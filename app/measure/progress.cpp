@@ -7,7 +7,7 @@
 namespace cellcut {
 namespace {
 
-constexpr double kLogInterval = 30;  // s
+constexpr double kMeasureLogInterval = 30;  // s
 
 }  // namespace
 
@@ -17,7 +17,7 @@ std::string MeasureProgress::left(double done) const {
 }
 
 void MeasureProgress::update(const std::string& label, double share, double seconds) {
-  const double interval = terminal_ ? kTerminalInterval : kLogInterval;
+  const double interval = terminal_ ? kTerminalInterval : kMeasureLogInterval;
   if (watch_.seconds() < drawn_ + interval) return;
   draw(label + left(done_ + std::clamp(share, 0.0, 1.0) * seconds));
 }

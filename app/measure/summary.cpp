@@ -66,7 +66,7 @@ std::string text(double value) {
 }
 
 /// RFC 4180.
-std::string quoted(const std::string& field) {
+std::string csvField(const std::string& field) {
   if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
   std::string result = "\"";
   for (const char c : field) result += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -114,9 +114,9 @@ std::uint64_t totalOf(const LightCounts& n) {
 std::vector<Column> makeColumns() {
   std::vector<Column> columns{
       {"configuration", "name, unique; its picture is images/NAME.exr",
-       [](const auto& results, const auto& row) { return quoted(configurationOf(results, row).name); }},
+       [](const auto& results, const auto& row) { return csvField(configurationOf(results, row).name); }},
       {"case", "scene, lights and depth: what has one reference",
-       [](const auto& results, const auto& row) { return quoted(caseOf(results, row).name); }},
+       [](const auto& results, const auto& row) { return csvField(caseOf(results, row).name); }},
       {"lights", "number of lights, tiles of the environment included",
        [](const auto& results, const auto& row) {
          return std::to_string(totalOf(results.cases[configurationOf(results, row).caseIndex].lights));

@@ -34,15 +34,15 @@ Vec2 uniformTriangle(Vec2 u) {
 
 // In double: from close to an edge its ends are all but opposite, where float sums of angles and triple products are
 // right to 10⁻³ only.
-float sphericalTriangleArea(const std::array<Vec3, 3>& corners) {
-  const DVec3 a(corners[0]), b(corners[1]), c(corners[2]);
+float sphericalTriangleArea(const std::array<glm::dvec3, 3>& corners) {
+  const auto& [a, b, c] = corners;
   // The triple product of differences keeps its digits where the corners are close together.
   const double triple = glm::dot(a, glm::cross(b - a, c - a));
   const double denominator = 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a);
   return static_cast<float>(std::abs(2 * std::atan2(triple, denominator)));
 }
 
-std::optional<Vec3> uniformSphericalTriangle(const std::array<Vec3, 3>& corners, Vec2 u) {
+std::optional<Vec3> uniformSphericalTriangle(const std::array<glm::dvec3, 3>& corners, Vec2 u) {
   const DVec3 a = glm::normalize(DVec3(corners[0])), b = glm::normalize(DVec3(corners[1])),
               c = glm::normalize(DVec3(corners[2]));
   const DVec3 nAb = glm::cross(a, b), nBc = glm::cross(b, c), nCa = glm::cross(c, a);

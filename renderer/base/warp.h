@@ -21,10 +21,10 @@ Vec2 uniformTriangle(Vec2 u);
 
 /// Solid angle of a triangle seen from the origin, [0, 2π]. Source: Van Oosterom and Strackee 1983.
 /// \param corners unit directions
-float sphericalTriangleArea(const std::array<Vec3, 3>& corners);
+float sphericalTriangleArea(const std::array<glm::dvec3, 3>& corners);
 
 /// Uniform direction inside a spherical triangle. Source: Arvo 1995; pbrt 4th ed. section 6.5.4.
 /// \param corners unit directions; nothing when they span no area
-std::optional<Vec3> uniformSphericalTriangle(const std::array<Vec3, 3>& corners, Vec2 u);
+std::optional<Vec3> uniformSphericalTriangle(const std::array<glm::dvec3, 3>& corners, Vec2 u);
 
 }  // namespace cellcut

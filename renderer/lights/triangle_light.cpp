@@ -10,21 +10,21 @@ namespace {
 
 /// Solid angles (sr) between which directions are sampled uniformly. Below, sampling by area is as good, but for a
 /// triangle whose corners are not about as far away: a lamp of 60 m × 2 cm at 3 m (0.007 sr) has 50 times the variance by
-/// area. A sliver of 0.002 sr is seen at least 6·10⁻⁴ wide, which float directions know to 10⁻⁴. Above, the triangle is
-/// all but a hemisphere and Arvo's formulas divide by almost zero (pbrt's limit).
+/// area; the sample's own float direction places it across 0.002 sr to 10⁻⁴ of their width. Above, the triangle is all but
+/// a hemisphere and Arvo's formulas divide by almost zero (pbrt's limit).
 constexpr float kMinSolidAngle = 1e-2f;
 constexpr float kMinStretchedSolidAngle = 2e-3f;
 constexpr float kMaxSolidAngle = 6.22f;
 /// A triangle is stretched when its farthest corner is more than 1.5 times as far away as its nearest.
 constexpr float kStretched2 = 1.5f * 1.5f;
 /// Cosine between corners below which points are sampled: from close to the middle of an edge its ends are all but
-/// opposite, and their float directions no longer say which plane the edge is in. Here, 4 · 10⁻³ short of opposite, it
-/// is right to 2 · 10⁻⁵.
-constexpr float kMinCornerCosine = -1 + 1e-5f;
+/// opposite, and the float direction of a sample no longer says where in the triangle it is. Here they are 4 · 10⁻³ short
+/// of opposite.
+constexpr double kMinCornerCosine = -1 + 1e-5;
 
 /// A triangle as the observer sees it on the unit sphere.
 struct SphericalTriangle {
-  std::array<Vec3, 3> directions;
+  std::array<glm::dvec3, 3> directions;
   float solidAngle;
 };
 
@@ -36,9 +36,11 @@ std::optional<SphericalTriangle> sphericalTriangle(const TriangleGeometry& trian
   const float least = farthest2 > kStretched2 * nearest2 ? kMinStretchedSolidAngle : kMinSolidAngle;
   // All but slivers that far away span less than the limit: skip the square roots and the arctangent.
   if (triangle.area <= 0.25f * least * nearest2 || nearest2 == 0) return std::nullopt;
-  const std::array<Vec3, 3> directions{glm::normalize(to[0]), glm::normalize(to[1]), glm::normalize(to[2])};
-  const float widest = std::min({glm::dot(directions[0], directions[1]), glm::dot(directions[1], directions[2]),
-                                 glm::dot(directions[2], directions[0])});
+  // In double: float directions know the width of a sliver to 10⁻³.
+  std::array<glm::dvec3, 3> directions;
+  for (std::size_t i = 0; i < 3; ++i) directions[i] = glm::normalize(glm::dvec3(triangle.corners[i]) - glm::dvec3(p));
+  const double widest = std::min({glm::dot(directions[0], directions[1]), glm::dot(directions[1], directions[2]),
+                                  glm::dot(directions[2], directions[0])});
   if (widest < kMinCornerCosine) return std::nullopt;
   const float solidAngle = sphericalTriangleArea(directions);
   if (!(solidAngle > least && solidAngle < kMaxSolidAngle)) return std::nullopt;

@@ -189,7 +189,8 @@ const Cut* CellTable::fill(Slot& slot, const std::function<Cut()>& make) {
 
 bool CellTable::reserve(std::size_t bytes) {
   // The other half is for cuts: one that finds no room is made anew at every vertex.
-  if (this->bytes() >= maxBytes_ / 2) return false;
+  if (this->bytes() >= maxBytes_ || reserved_.load(std::memory_order_relaxed) >= maxBytes_ / 2) return false;
+  reserved_.fetch_add(bytes, std::memory_order_relaxed);
   bytes_.fetch_add(bytes, std::memory_order_relaxed);
   return true;
 }

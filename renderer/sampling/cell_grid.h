@@ -83,7 +83,10 @@ class CellTable {
   /// Takes memory for something that belongs to a kept cut; false when half of the table's share is used up.
   bool reserve(std::size_t bytes);
   /// Gives back what was reserved and is not used after all.
-  void release(std::size_t bytes) { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
+  void release(std::size_t bytes) {
+    reserved_.fetch_sub(bytes, std::memory_order_relaxed);
+    bytes_.fetch_sub(bytes, std::memory_order_relaxed);
+  }
   /// The cell's cut if it was made.
   const Cut* find(const CellCoordinates& cell) const;
 
@@ -102,6 +105,7 @@ class CellTable {
   std::size_t maxBytes_;
   std::vector<Slot> slots_;  ///< open addressing, a power of two
   std::atomic<std::size_t> bytes_;
+  std::atomic<std::size_t> reserved_{0};  ///< of these, by reserve()
 };
 
 }  // namespace cellcut

@@ -112,7 +112,8 @@ class Cut {
   std::size_t farCount() const { return far_.size(); }
   std::size_t distantCount() const { return distantCount_; }  ///< of the far ones
   const BlockedFloats& near() const { return near_; }
-  /// A light so large for its distance that the bounds of its cluster say little. Its row of near() has no weight.
+  /// A light so large for its distance that the bounds of its cluster say little: a few of them. Its row of near() has no
+  /// weight.
   struct LargeLight {
     std::uint32_t near;  ///< its row
     LightId light;

@@ -69,6 +69,10 @@ std::string_view takeWord(std::string_view& line) {
 }
 
 void joinContinuedLines(std::span<char> text) {
+  // A byte order mark is no part of the first word.
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (std::string_view(text.data(), text.size()).starts_with(kMark)) std::fill_n(text.begin(), kMark.size(), ' ');
+
   bool isStart = true, isComment = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -78,7 +82,7 @@ void joinContinuedLines(std::span<char> text) {
       continue;
     }
     if (isStart && c == '#') isComment = true;
-    isStart = isStart && (c == ' ' || c == '\t');
+    isStart = c == ' ' || c == '\t';  // of a word: a '#' inside of one is part of a name
     if (c != '\\' || isComment) continue;
     const std::string_view end(text.data() + i + 1, std::min<std::size_t>(2, text.size() - i - 1));
     if (end.empty() || kLineEnds.find(end[0]) == std::string_view::npos) continue;
@@ -113,6 +117,7 @@ std::string plainMtl(std::string_view mtl) {
     const std::string_view keyword = takeWord(rest);
     std::string_view afterFirst = rest;
     const std::string_view first = takeWord(afterFirst);
+    if (isColor(keyword)) afterFirst = afterFirst.substr(0, afterFirst.find('#'));
     hasDiffuse |= keyword == "Kd";
     hasPicture |= keyword == "map_Kd";
     if (keyword == "newmtl") {

@@ -18,8 +18,8 @@ std::string_view unquoted(std::string_view name);
 /// First word after blanks, taken off the front of `line` together with these. Empty if there is none.
 std::string_view takeWord(std::string_view& line);
 
-/// Blanks in place of every '\' at the end of a line and of that end. Comments are left alone: those end in the paths of
-/// folders now and then.
+/// Blanks in place of every '\' at the end of a line and of that end, and of a byte order mark. Comments are left alone:
+/// those end in the paths of folders now and then.
 void joinContinuedLines(std::span<char> text);
 
 struct ObjOutline {

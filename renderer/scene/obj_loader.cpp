@@ -29,6 +29,9 @@ constexpr std::size_t kMaxCorners = 4096;
 constexpr std::size_t kMaxLooks = std::size_t{1} << 26;
 constexpr std::size_t kMaxLooksPerCorner = 64;
 
+/// Most names of material libraries: looking for one takes 20 µs.
+constexpr std::size_t kMaxLibraries = 1000;
+
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
 /// A corner of a face: 0-based indices, kNone where the file gives none.
@@ -89,7 +92,8 @@ class ObjReader {
   std::vector<glm::dvec3> positions_;
   std::vector<Vec3> normals_;
   std::vector<Vec2> texCoords_;
-  std::set<std::string> libraries_;  ///< that have been read
+  std::map<std::string, bool> isLibrary_;  ///< names that were asked for
+  std::set<std::string> libraries_;        ///< files that have been read
   std::map<std::string, MaterialId> materials_;
   std::optional<MaterialId> current_, default_;
   std::map<PartKey, PartBuilder> parts_;
@@ -162,9 +166,10 @@ void ObjReader::useMaterial(std::string_view name) {
 /// One name that has blanks, or several; of materials with the same name the first counts.
 void ObjReader::readLibraries(std::string names) {
   std::replace(names.begin(), names.end(), '\\', '/');
+  constexpr std::size_t kLongestName = 255;
   std::string_view rest = names;
-  takeWord(rest);
-  if (!rest.empty() && readLibrary(names)) return;
+  const std::string first(takeWord(rest));
+  if (!rest.empty() && names.size() <= kLongestName && !readLibrary(first) && readLibrary(names)) return;
   rest = names;
   for (std::string name(takeWord(rest)); !name.empty(); name = takeWord(rest)) {
     if (!readLibrary(name)) warnOnce(draft_.scene, "material library " + printable(name) + " is missing");
@@ -173,11 +178,17 @@ void ObjReader::readLibraries(std::string names) {
 
 /// False if there is none.
 bool ObjReader::readLibrary(const std::string& reference) {
+  const auto [asked, isNew] = isLibrary_.try_emplace(reference, false);
+  if (!isNew) return asked->second;
+  if (isLibrary_.size() > kMaxLibraries) {
+    throw InputError(draft_.name,
+                     "names more than " + std::to_string(kMaxLibraries) + " material libraries; join them");
+  }
   const std::filesystem::path file = folder_.resolve(reference);
   if (!std::filesystem::exists(file)) return false;
   if (libraries_.insert(file.string()).second)
     materials_.merge(readMtl(folder_, reference, draft_.limits.maxTextureBytes, draft_.scene));
-  return true;
+  return asked->second = true;
 }
 
 MaterialId ObjReader::materialOrDefault(std::optional<MaterialId> id) {

@@ -85,7 +85,7 @@ constexpr float kNearest = std::numeric_limits<float>::min();
 constexpr float kLargest = 1.8e18f;
 
 bool isInReach(const Vec3& v) {
-  return maxComponent(glm::abs(v)) < kLargest;
+  return std::abs(v.x) < kLargest && std::abs(v.y) < kLargest && std::abs(v.z) < kLargest;  // NaN is not
 }
 
 /// A ray that meets nothing; tMax is not negative, for that is how Embree says that one was occluded.

@@ -128,4 +128,9 @@ std::filesystem::path writeFile(const std::filesystem::path& file, const std::st
   return writeFile(file, std::as_bytes(std::span(text)));
 }
 
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 }  // namespace cellcut::test

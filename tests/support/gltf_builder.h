@@ -75,5 +75,6 @@ std::vector<std::byte> glbBytes(const nlohmann::json& json, std::vector<std::byt
 /// Writes text or bytes and returns the file.
 std::filesystem::path writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 std::filesystem::path writeFile(const std::filesystem::path& file, const std::string& text);
+std::string contentOf(const std::filesystem::path& file);
 
 }  // namespace cellcut::test

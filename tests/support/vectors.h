@@ -6,6 +6,7 @@
 #include "renderer/base/rng.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@ namespace cellcut::test {
 
 /// Floats of size 1 after a few roundings.
 inline constexpr float kRounding = 1e-6f;
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 inline void expectNear(const Vec3& a, const Vec3& b, float tolerance = kRounding) {
   EXPECT_LE(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;

@@ -3,6 +3,7 @@
 #include "renderer/base/rng.h"
 #include "renderer/base/srgb.h"
 #include "renderer/base/tone_map.h"
+#include "tests/support/vectors.h"
 #include "tests/ui/canvas.h"
 
 #include <cmath>
@@ -15,7 +16,6 @@ namespace {
 using test::Canvas;
 using test::Rgba8;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr Rgba8 kBlack(0, 0, 0, 255);
 const ImageViewSettings kPlain{.toneMap = false};
 
@@ -132,7 +132,7 @@ ImageRgb manyColors() {
     const float brightness = std::exp2(rng.uniform() * 40 - 20);
     color = brightness * Vec3(rng.uniform(), rng.uniform(), rng.uniform());
   }
-  const float odd[] = {0, -1, kNan, kInfinity, -kInfinity, 1e38f, 1e-40f, 0.0031308f, 0.8f, 1};
+  const float odd[] = {0, -1, test::kNan, kInfinity, -kInfinity, 1e38f, 1e-40f, 0.0031308f, 0.8f, 1};
   std::size_t i = 0;
   for (const float r : odd)
     for (const float g : odd)
@@ -247,7 +247,7 @@ TEST(FitImage, AnswersWhichPixelIsUnderThePointer) {
   EXPECT_EQ(imagePixelAt(placement, {3, 2}, Vec2(21.9f, 27.9f)), glm::ivec2(2, 1));
   EXPECT_EQ(imagePixelAt(placement, {3, 2}, Vec2(22, 20)), std::nullopt);
   EXPECT_EQ(imagePixelAt(placement, {3, 2}, Vec2(9.9f, 20)), std::nullopt);
-  EXPECT_EQ(imagePixelAt(placement, {3, 2}, Vec2(kNan, 1e30f)), std::nullopt);
+  EXPECT_EQ(imagePixelAt(placement, {3, 2}, Vec2(test::kNan, 1e30f)), std::nullopt);
   EXPECT_EQ(placement.toFramebuffer(placement.toImage(Vec2(13, 37))), Vec2(13, 37));
 }
 

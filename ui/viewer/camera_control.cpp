@@ -34,7 +34,7 @@ Vec3 vectorOf(const nlohmann::json& json, const char* key) {
   return {values[0], values[1], values[2]};
 }
 
-nlohmann::json toJson(const Vec3& v) {
+nlohmann::json numbersOf(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -98,9 +98,12 @@ std::optional<Vec2> projectToFilm(const Camera& camera, const Vec3& p, glm::ivec
 
 std::string poseToJson(const CameraPose& pose) {
   const Camera& camera = pose.camera;
-  return nlohmann::json{
-      {"position", toJson(camera.position)}, {"back", toJson(camera.back)}, {"up", toJson(camera.up)},
-      {"half_height", camera.halfHeight},    {"focus", pose.focus},         {"orthographic", camera.orthographic}}
+  return nlohmann::json{{"position", numbersOf(camera.position)},
+                        {"back", numbersOf(camera.back)},
+                        {"up", numbersOf(camera.up)},
+                        {"half_height", camera.halfHeight},
+                        {"focus", pose.focus},
+                        {"orthographic", camera.orthographic}}
       .dump();
 }
 

@@ -8,13 +8,13 @@ namespace cellcut {
 namespace {
 
 /// As that of a session's workers: the picture goes on and the UI wakes at once.
-constexpr int kNiceness = 19;
+constexpr int kTrialNiceness = 19;
 
 Trade tryOut(const SessionInput& input, const std::atomic<bool>& cancel) {
   const std::vector<Quality> candidates = tradeCandidates(input.settings);
   RenderSettings settings = input.settings;
   settings.sampler = candidates[0].settings;
-  settings.niceness = kNiceness;
+  settings.niceness = kTrialNiceness;
   Renderer renderer(*input.scene, settings);
   const QualityChoice choice = chooseQuality(renderer, candidates, {.seconds = kTradeLength}, cancel);
   return {input, choice.trials, bestTrial(choice.trials)};

@@ -22,11 +22,6 @@ std::string refusal(const fs::path& file) {
   return refusalOf([&] { requireWritable(file); });
 }
 
-std::string contentOf(const fs::path& file) {
-  const std::vector<std::byte> bytes = readFile(file, 1000);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 class OutputTest : public testing::Test {
  protected:
   const TemporaryDirectory folder_;

@@ -42,9 +42,9 @@ float pattern(int channel, int x, int y) {
 }
 
 /// A frame of one pattern per channel, in float, that covers `window`.
-class Frame {
+class FramedChannels {
  public:
-  Frame(const Imath::Box2i& window, std::initializer_list<const char*> channels) : window_(window) {
+  FramedChannels(const Imath::Box2i& window, std::initializer_list<const char*> channels) : window_(window) {
     int index = 0;
     for (const char* name : channels) insert(name, ++index);
   }
@@ -72,7 +72,7 @@ void addChannels(Imf::Header& header, std::initializer_list<const char*> channel
 std::vector<std::byte> scanLines(const Imf::Header& header, std::initializer_list<const char*> channels) {
   Imf::StdOSStream stream;
   {
-    const Frame frame(header.dataWindow(), channels);
+    const FramedChannels frame(header.dataWindow(), channels);
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(frame.buffer());
     const Imath::Box2i& window = header.dataWindow();
@@ -140,7 +140,7 @@ TEST(ExrReader, ReadsTiles) {
   addChannels(header, {"R", "G", "B"});
   Imf::StdOSStream stream;
   {
-    const Frame frame(header.dataWindow(), {"R", "G", "B"});
+    const FramedChannels frame(header.dataWindow(), {"R", "G", "B"});
     Imf::TiledOutputFile file(stream, header, 0);
     file.setFrameBuffer(frame.buffer());
     for (int level = 0; level < file.numLevels(); ++level) {
@@ -193,9 +193,9 @@ std::vector<std::byte> threeParts() {
   Imf::StdOSStream stream;
   {
     Imf::MultiPartOutputFile file(stream, headers.data(), 3, false, 0);
-    const Frame depth(headers[0].dataWindow(), {"Z"}), beauty(headers[1].dataWindow(), {"R", "G", "B"}),
+    const FramedChannels depth(headers[0].dataWindow(), {"Z"}), beauty(headers[1].dataWindow(), {"R", "G", "B"}),
         later(headers[2].dataWindow(), {"Y"});
-    const Frame* frames[] = {&depth, &beauty, &later};
+    const FramedChannels* frames[] = {&depth, &beauty, &later};
     for (int i = 0; i < 3; ++i) {
       Imf::OutputPart part(file, i);
       part.setFrameBuffer(frames[i]->buffer());
@@ -409,7 +409,7 @@ TEST(ExrReader, RefusesTilesFarLargerThanThePicture) {
   addChannels(header, {"R", "G", "B"});
   Imf::StdOSStream stream;
   {
-    const Frame frame(header.dataWindow(), {"R", "G", "B"});
+    const FramedChannels frame(header.dataWindow(), {"R", "G", "B"});
     Imf::TiledOutputFile output(stream, header, 0);
     output.setFrameBuffer(frame.buffer());
     output.writeTile(0, 0);

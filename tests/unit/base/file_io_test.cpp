@@ -1,6 +1,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
 #include "tests/support/bytes.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/hostile_budget.h"
 #include "tests/support/refusal.h"
 #include "tests/support/restrictions.h"
@@ -19,11 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-std::string contentOf(const fs::path& file) {
-  const std::vector<std::byte> bytes = readFile(file, 1000);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 /// What readFile says against a file.
 std::string readingRefusal(const fs::path& file, std::uintmax_t maxBytes = 1000) {

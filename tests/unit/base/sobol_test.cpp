@@ -12,20 +12,20 @@
 namespace cellcut::test {
 namespace {
 
-using Point = std::array<std::uint32_t, 4>;
+using Point4 = std::array<std::uint32_t, 4>;
 
-std::vector<Point> prefix(unsigned log2Count, std::uint64_t seed, std::uint32_t first = 0) {
-  std::vector<Point> points;
+std::vector<Point4> prefix(unsigned log2Count, std::uint64_t seed, std::uint32_t first = 0) {
+  std::vector<Point4> points;
   for (std::uint32_t i = 0; i < (1u << log2Count); ++i) points.push_back(owenSobol4(reverseBits(first + i), seed));
   return points;
 }
 
 /// Whether each elementary interval of 2^−bits per dimension holds as many points as every other.
-bool isEven(const std::vector<Point>& points, const std::array<unsigned, 4>& bits) {
+bool isEven(const std::vector<Point4>& points, const std::array<unsigned, 4>& bits) {
   unsigned sum = 0;
   for (const unsigned b : bits) sum += b;
   std::vector<std::size_t> counts(std::size_t{1} << sum);
-  for (const Point& p : points) {
+  for (const Point4& p : points) {
     std::size_t cell = 0;
     for (std::size_t d = 0; d < 4; ++d) {
       if (bits[d] > 0) cell = (cell << bits[d]) | (p[d] >> (32 - bits[d]));
@@ -53,7 +53,7 @@ TEST(Sobol, FourDimensionsOfAnyPrefixAreANetOfQualityThree) {
   constexpr unsigned kQuality = 3;
   for (const std::uint64_t seed : kSeeds) {
     for (unsigned m = kQuality; m <= 10; ++m) {
-      const std::vector<Point> points = prefix(m, seed);
+      const std::vector<Point4> points = prefix(m, seed);
       const unsigned sum = m - kQuality;
       for (unsigned a = 0; a <= sum; ++a) {
         for (unsigned b = 0; a + b <= sum; ++b) {
@@ -99,12 +99,12 @@ TEST(Sobol, LaterBlocksAreNetsToo) {
 }
 
 TEST(Sobol, FirstMillionPointsAreANet) {
-  const std::vector<Point> points = prefix(20, 77);
+  const std::vector<Point4> points = prefix(20, 77);
   for (unsigned a = 0; a <= 20; a += 5) EXPECT_TRUE(isEven(points, {a, 20 - a, 0, 0}));
 }
 
 TEST(Sobol, SeedsScrambleDifferently) {
-  std::set<Point> firsts;
+  std::set<Point4> firsts;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) firsts.insert(owenSobol4(reverseBits(0), seed));
   EXPECT_EQ(firsts.size(), 1000u);
 }

@@ -1,21 +1,20 @@
 #include "renderer/base/tone_map.h"
 
+#include "tests/support/vectors.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace cellcut {
+namespace cellcut::test {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kUlps = 1e-6f;  // a few roundings of numbers up to 1
 
 TEST(ToneMap, IsPlainSrgbBelowTheShoulder) {
   // IEC 61966-2-1: a linear piece up to 0.0031308, then 1.055 c^(1/2.4) − 0.055.
   const Vec3 shown = toneMap({0.002f, 0.18f, 0.8f});
-  EXPECT_NEAR(shown.x, 0.02584f, kUlps);
-  EXPECT_NEAR(shown.y, 1.055f * std::pow(0.18f, 1 / 2.4f) - 0.055f, kUlps);
-  EXPECT_NEAR(shown.z, 1.055f * std::pow(0.8f, 1 / 2.4f) - 0.055f, kUlps);
+  EXPECT_NEAR(shown.x, 0.02584f, kRounding);
+  EXPECT_NEAR(shown.y, 1.055f * std::pow(0.18f, 1 / 2.4f) - 0.055f, kRounding);
+  EXPECT_NEAR(shown.z, 1.055f * std::pow(0.8f, 1 / 2.4f) - 0.055f, kRounding);
   EXPECT_EQ(toneMap(Vec3(0.0f)), Vec3(0.0f));
 }
 
@@ -56,9 +55,9 @@ TEST(ToneMap, BadNumbersAreShown) {
   EXPECT_EQ(toneMap(Vec3(-1.0f)), Vec3(0.0f));
   for (const float bright : {kInfinity, std::numeric_limits<float>::max()}) {
     const Vec3 shown = toneMap(Vec3(bright, 0, kNan));
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], 1, kUlps);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], 1, kRounding);
   }
 }
 
 }  // namespace
-}  // namespace cellcut
+}  // namespace cellcut::test

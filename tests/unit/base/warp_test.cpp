@@ -12,18 +12,20 @@
 namespace cellcut::test {
 namespace {
 
-constexpr std::size_t kSide = 16;
+constexpr std::size_t kBinsPerSide = 16;
 constexpr float kLast = 0x1.fffffep-1f;
 
 /// χ² of the warped points, where `unwarp` maps them back to what must be uniform on [0, 1)².
 double uniformity(const auto& pointInUnitSquare) {
   Rng rng(42);
-  std::vector<std::uint64_t> counts(kSide * kSide);
+  std::vector<std::uint64_t> counts(kBinsPerSide * kBinsPerSide);
   for (std::size_t i = 0; i < sampleShare(200'000); ++i) {
     const float u = rng.uniform();
     const Vec2 p = pointInUnitSquare(Vec2(u, rng.uniform()));
-    const auto cell = [](float x) { return std::min(static_cast<std::size_t>(std::max(0.0f, x) * kSide), kSide - 1); };
-    ++counts[cell(p.y) * kSide + cell(p.x)];
+    const auto cell = [](float x) {
+      return std::min(static_cast<std::size_t>(std::max(0.0f, x) * kBinsPerSide), kBinsPerSide - 1);
+    };
+    ++counts[cell(p.y) * kBinsPerSide + cell(p.x)];
   }
   return chiSquareTest(counts, std::vector<double>(counts.size(), 1.0)).p;
 }
@@ -74,6 +76,10 @@ TEST(Warp, CornersOfTheSquareStayInside) {
   }
 }
 
+std::array<glm::dvec3, 3> inDouble(const std::array<Vec3, 3>& corners) {
+  return {corners[0], corners[1], corners[2]};
+}
+
 TEST(Warp, OctantHasAnEighthOfTheSphere) {
   EXPECT_NEAR(sphericalTriangleArea({Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}), kPi / 2, 1e-6);
 }
@@ -83,7 +89,7 @@ TEST(Warp, SmallSphericalTriangleHasItsPlaneArea) {
   const std::array<Vec3, 3> corners{glm::normalize(Vec3(0, 0, 1)), glm::normalize(Vec3(e, 0, 1)),
                                     glm::normalize(Vec3(0, e, 1))};
   // The curvature changes the area by e², a float's corners by 10⁻⁴ of their distance.
-  EXPECT_NEAR(sphericalTriangleArea(corners) / (0.5f * e * e), 1, 2e-4);
+  EXPECT_NEAR(sphericalTriangleArea(inDouble(corners)) / (0.5f * e * e), 1, 2e-4);
 }
 
 struct Spherical {
@@ -96,7 +102,7 @@ class SphericalTriangles : public testing::TestWithParam<Spherical> {};
 TEST_P(SphericalTriangles, AreSampledUniformly) {
   std::array<Vec3, 3> c = GetParam().corners;
   for (Vec3& v : c) v = glm::normalize(v);
-  const float area = sphericalTriangleArea(c);
+  const float area = sphericalTriangleArea(inDouble(c));
   // Uniform if each sub-triangle gets its share. Split by the planes through a corner and points of the opposite edge,
   // and by distance from that corner: the first is uniform in area by definition of the bins.
   constexpr int kBins = 12;
@@ -120,7 +126,7 @@ TEST_P(SphericalTriangles, AreSampledUniformly) {
     Rng rng(7);
     for (std::size_t i = 0; i < sampleShare(100'000); ++i) {
       const float u = rng.uniform();
-      const auto w = uniformSphericalTriangle(turned, {u, rng.uniform()});
+      const auto w = uniformSphericalTriangle(inDouble(turned), {u, rng.uniform()});
       ASSERT_TRUE(w);
       ASSERT_NEAR(glm::length(*w), 1, 1e-5);
       // The first cut whose plane has the direction on its near side.

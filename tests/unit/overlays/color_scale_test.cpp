@@ -1,5 +1,7 @@
 #include "ui/overlays/color_scale.h"
 
+#include "tests/support/vectors.h"
+
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -9,8 +11,6 @@ namespace cellcut::test {
 namespace {
 
 using testing::ElementsAre;
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 Image<float> row(std::initializer_list<float> values) {
   Image<float> image(static_cast<int>(values.size()), 1);

@@ -237,6 +237,28 @@ TEST(Cut, ASunDoesNotKeepLampsFromBeingSplit) {
   EXPECT_GT(sizeOf(1e-3f), sizeOf(1e6f));
 }
 
+TEST(Cut, WeighsNoMoreThanSixteenLightsExactly) {
+  Scene scene;
+  const MaterialId lamp = addMaterial(scene, emitter(Vec3(1), true));
+  for (int i = 0; i < 100; ++i) {
+    const float x = 0.1f * static_cast<float>(i);
+    addTriangle(scene, lamp, {x, -20, 2}, {x, 20, 2}, {x + 0.05f, 20, 2});
+  }
+  finish(scene);
+  const Lights lights(scene);
+  const LightTrees trees(lights);
+  const Cut cut = makeCut(trees, {Vec3(0), 0.1f}, {0, 1024});
+  EXPECT_EQ(cut.size(), 100u);
+  EXPECT_EQ(cut.largeLights().size(), 16u);
+  float faintest = kInfinity;
+  for (const Cut::LargeLight& large : cut.largeLights())
+    faintest = std::min(faintest, cut.members()[cut.farCount() + large.near].estimate);
+  EXPECT_EQ(std::count_if(cut.members().begin(), cut.members().end(),
+                          [&](const Cut::Member& m) { return m.estimate >= faintest; }),
+            16)
+      << "they have the largest estimates";
+}
+
 TEST(Cut, LightsThatAreLargeForTheirDistanceAreWeighedExactly) {
   Scene scene;
   const MaterialId lamp = addMaterial(scene, emitter(Vec3(1), true));

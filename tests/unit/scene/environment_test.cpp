@@ -16,8 +16,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
 Environment turned(double degrees, ImageRgb image = ImageRgb(4, 2, Vec3(1.0f))) {
   Scene scene;
   setEnvironment(scene, std::move(image), 1, degrees, "picture");

@@ -148,6 +148,8 @@ TEST_F(ObjLoader, FindsLibrariesAndMaterialsHoweverTheyAreNamed) {
   test::writeFile(folder / "m.mtl", kLamp);
   test::writeFile(folder / "my lamps.mtl", kLamp);
   test::writeFile(folder / "other.mtl", "newmtl other\nnewmtl a lamp\nKe 1 1 1\n");
+  std::string many;
+  for (int i = 0; i < 60; ++i) many += " gone" + std::to_string(i) + ".mtl";
   const std::string use = kTriangle + "usemtl a lamp\nf 1 2 3\n";
   for (const std::string& text : {
            "mtllib m.mtl\n" + use,
@@ -155,6 +157,8 @@ TEST_F(ObjLoader, FindsLibrariesAndMaterialsHoweverTheyAreNamed) {
            "mtllib \"my lamps.mtl\"\n" + use,
            "mtllib m.mtl other.mtl\n" + use,
            "mtllib gone.mtl m.mtl\n" + use,
+           "mtllib" + many + " m.mtl\n" + use,
+           "\xEF\xBB\xBFmtllib m.mtl\n" + use,
            "mtllib m.mtl\nmtllib m.mtl\nmtllib other.mtl\n" + use,
            "mtllib m.mtl\n" + kTriangle + "usemtl  a lamp \nf 1 2 3\n",
            use + "mtllib m.mtl\n",
@@ -164,12 +168,19 @@ TEST_F(ObjLoader, FindsLibrariesAndMaterialsHoweverTheyAreNamed) {
   }
 }
 
+TEST_F(ObjLoader, RefusesThousandsOfLibraries) {
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "mtllib a.mtl b" + std::to_string(i) + ".mtl\n";
+  const test::HostileBudget budget("libraries");
+  EXPECT_EQ(refusalOf(text), "test.obj: names more than 1000 material libraries; join them");
+}
+
 TEST_F(ObjLoader, JoinsContinuedLinesAndSkipsComments) {
   const Scene plain = load("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   for (const char* text : {
            "v 0 0 0\nv 1 \\\n0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\r\n3 4\n",
            "v 0 0 0 # a\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 # 7 8\n",
-           "# D:\\models\\\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\\",
+           "# D:\\models\\\nv 0 0 0 # of D:\\\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\\",
        }) {
     const Scene scene = load(text);
     ASSERT_EQ(scene.triangleCount(), 2u) << text;
@@ -180,7 +191,7 @@ TEST_F(ObjLoader, JoinsContinuedLinesAndSkipsComments) {
 }
 
 TEST_F(ObjLoader, OneNumberOfAColorStandsForThree) {
-  test::writeFile(folder / "m.mtl", "newmtl a\nKd 0.5\nKe 3\n");
+  test::writeFile(folder / "m.mtl", "newmtl a\nKd 0.5 # C:\\\nKe 3\n");
   const Material material = load("mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n").materials.at(0);
   EXPECT_EQ(material.baseColor, Vec4(0.5f, 0.5f, 0.5f, 1));
   EXPECT_EQ(material.emission, Vec3(3));
