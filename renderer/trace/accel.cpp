@@ -11,6 +11,8 @@
 #include <new>
 #include <stdexcept>
 
+#include <tbb/parallel_invoke.h>
+
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -149,6 +151,9 @@ void Accel::State::attach(const Mesh& mesh, unsigned id, bool partlyCovered) {
 }
 
 Accel::Accel(const Scene& scene) : state_(std::make_unique<State>()) {
+  // Embree builds without denormal numbers, and oneTBB gives all tasks of a thread what the first one found: a sky of
+  // 10⁻⁴² would be black to those that come later.
+  tbb::parallel_invoke([] {}, [] {});
   // Without a thread count Embree limits no arena of ours.
   state_->device = rtcNewDevice(nullptr);
   if (!state_->device) {

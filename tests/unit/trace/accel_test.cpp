@@ -9,9 +9,12 @@
 #include "tests/support/vectors.h"
 
 #include <array>
+#include <atomic>
+#include <thread>
 
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 namespace cellcut::test {
 namespace {
@@ -30,6 +33,22 @@ TEST(Accel, FindsTheNearestTriangle) {
   EXPECT_FALSE(accel.intersect({Vec3(0), {0, 0, 1}, 1.9f}, 0));
   EXPECT_TRUE(accel.occluded({Vec3(0), {0, 0, 1}, 2.1f}, 0));
   EXPECT_FALSE(accel.occluded({Vec3(0), {0, 0, 1}, 1.9f}, 0));
+}
+
+TEST(Accel, LeavesDenormalNumbersToTheThreadThatBuildsIt) {
+  Scene scene;
+  addQuad(scene, addMaterial(scene, lambertian(Vec3(0.5f))), Vec3(0), {1, 0, 0}, {0, 1, 0});
+  std::atomic<int> lost{0};
+  // A thread that has had no tasks before.
+  std::thread([&] {
+    const Accel accel(scene);
+    tbb::parallel_for(0, 64, [&](int) {
+      volatile float tiny = std::numeric_limits<float>::min();
+      tiny = tiny * 0.25f;
+      if (!(tiny > 0)) ++lost;
+    });
+  }).join();
+  EXPECT_EQ(lost, 0);
 }
 
 TEST(Accel, RaysBeyondEmbreesReachMeetNothingAndLongShadowRaysAreTraced) {
