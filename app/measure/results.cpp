@@ -260,7 +260,7 @@ void takeOver(MeasureResults& results, const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = readFile(path, kMostBytes);
   try {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    checkJsonShape(text, file);
+    checkJsonShape(text, file, "choose another folder");
     const Json json = Json::parse(text);
     // Through text, as the numbers in the file went: 0.002f there is the double nearest to it.
     if (json.at("settings") != Json::parse(jsonText(results.settings))) {

@@ -59,7 +59,7 @@ std::string_view gltfJson(std::span<const std::byte> file, const std::string& na
   return json;
 }
 
-void checkJsonShape(std::string_view json, const std::string& name) {
+void checkJsonShape(std::string_view json, const std::string& name, const std::string& remedy) {
   int depth = 0;
   std::size_t values = 1;
   bool inString = false;
@@ -74,11 +74,11 @@ void checkJsonShape(std::string_view json, const std::string& name) {
     if (c == ',' || c == ':') ++values;
     if (c == ']' || c == '}') --depth;
     if ((c == '[' || c == '{') && ++depth > kMaxJsonDepth) {
-      throw InputError(name, "JSON nested more than " + std::to_string(kMaxJsonDepth) + " deep; export the file again");
+      throw InputError(name, "JSON nested more than " + std::to_string(kMaxJsonDepth) + " deep; " + remedy);
     }
   }
   if (values > kMaxJsonValues)
-    throw InputError(name, "more than " + std::to_string(kMaxJsonValues) + " JSON values; split the scene");
+    throw InputError(name, "more than " + std::to_string(kMaxJsonValues) + " JSON values; " + remedy);
 }
 
 }  // namespace cellcut

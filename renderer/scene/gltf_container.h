@@ -21,8 +21,9 @@ bool isBinaryGltf(std::span<const std::byte> file);
 /// \throws InputError; `name` is used in messages only. Source: glTF 2.0 section 4.4.
 std::string_view gltfJson(std::span<const std::byte> file, const std::string& name);
 
+/// \param remedy  what the message ends with: how to come by a better text
 /// \throws InputError if the text nests deeper than kMaxJsonDepth or holds more than kMaxJsonValues. Says nothing else
 /// about it.
-void checkJsonShape(std::string_view json, const std::string& name);
+void checkJsonShape(std::string_view json, const std::string& name, const std::string& remedy);
 
 }  // namespace cellcut

@@ -159,7 +159,7 @@ GltfDocument readGltf(const std::filesystem::path& file) {
   // One byte less than the limit: the parser counts in 32 bits.
   const std::vector<std::byte> bytes = readFile(file, kMaxSceneFileBytes - 1);
   if (bytes.empty()) throw InputError(document.name, "is empty; export the file again");
-  checkJsonShape(gltfJson(bytes, document.name), document.name);
+  checkJsonShape(gltfJson(bytes, document.name), document.name, "export the file again, or the scene in parts");
 
   ParseContext context{document.name, folder, document.images};
   const bool parsed = parse(bytes, context, document.model, document.complaint);

@@ -284,7 +284,8 @@ TEST_F(ViewerTest, ACameraBeyondAllDistancesSeesNothing) {
 TEST_F(ViewerTest, AClipboardThatNestsWithoutEndHoldsNoView) {
   window_->setClipboard("{\"position\": " + std::string(100'000, '[') + std::string(100'000, ']') + "}");
   play("key Ctrl+V\n");
-  EXPECT_THAT(viewer_->problem(), HasSubstr("camera from the clipboard: JSON nested more than 128 deep"));
+  EXPECT_THAT(viewer_->problem(),
+              HasSubstr("camera from the clipboard: JSON nested more than 128 deep; copy one with Ctrl+C"));
 }
 
 TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {

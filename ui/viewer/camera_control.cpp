@@ -110,7 +110,7 @@ std::string poseToJson(const CameraPose& pose) {
 CameraPose poseFromJson(const std::string& text, const Bounds& scene) {
   const std::string place = "camera from the clipboard";
   try {
-    checkJsonShape(text, place);
+    checkJsonShape(text, place, "copy one with Ctrl+C first");
     const auto json = nlohmann::json::parse(text);
     Camera camera;
     camera.position = vectorOf(json, "position");

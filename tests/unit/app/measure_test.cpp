@@ -199,7 +199,7 @@ TEST_F(MeasureTest, ResultsThatNestWithoutEndAreRefused) {
       << "{\"settings\": " << std::string(100'000, '[') << std::string(100'000, ']') << "}";
   const Outcome outcome = measure("a", {"--resume"});
   EXPECT_EQ(outcome.code, kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("results.json: JSON nested more than 128 deep"));
+  EXPECT_THAT(outcome.err, HasSubstr("results.json: JSON nested more than 128 deep; choose another"));
 }
 
 TEST_F(MeasureTest, ReferenceIsMadeOnce) {
