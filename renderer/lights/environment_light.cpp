@@ -1,5 +1,7 @@
 #include "renderer/lights/environment_light.h"
 
+#include "renderer/lights/scalar_emission.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 namespace cellcut {
@@ -31,8 +33,8 @@ EnvironmentLight::EnvironmentLight(const Environment& environment) : environment
 }
 
 void EnvironmentLight::chooseUnit() {
-  float brightest = 0;
-  for (const Vec3& radiance : environment_.radiance) brightest = std::max(brightest, luminance(radiance));
+  double brightest = 0;
+  for (const Vec3& radiance : environment_.radiance) brightest = std::max(brightest, scalarEmission(radiance));
   if (brightest > 0) exponent_ = std::ilogb(brightest) - kBrightestExponent;
 }
 
@@ -44,17 +46,17 @@ void EnvironmentLight::buildPyramid() {
   const double scale = std::ldexp(1.0, -exponent_);
   tbb::parallel_for(0, height, [&](int y) {
     const double scaledAngle = static_cast<double>(texelSolidAngles_[static_cast<std::size_t>(y)]) * scale;
+    // The integral of a bilinear interpolant over a texel: (1 6 1)/8 on each axis.
+    std::vector<double> columns(texels.width);
     for (int x = 0; x < width; ++x) {
-      // The integral of a bilinear interpolant over a texel: (1 6 1)/8 on each axis.
-      double sum = 0;
-      for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) {
-          const int sx = (x + i + width) % width, sy = std::clamp(y + j, 0, height - 1);
-          sum += (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125) * static_cast<double>(luminance(image.at(sx, sy)));
-        }
-      }
-      texels.weights[static_cast<std::size_t>(y) * texels.width + static_cast<std::size_t>(x)] =
-          static_cast<float>(sum * scaledAngle);
+      const auto at = [&](int row) { return scalarEmission(image.at(x, std::clamp(row, 0, height - 1))); };
+      columns[static_cast<std::size_t>(x)] = 0.125 * (at(y - 1) + at(y + 1)) + 0.75 * at(y);
+    }
+    float* weights = &texels.weights[static_cast<std::size_t>(y) * texels.width];
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+      const double before = columns[x > 0 ? x - 1 : columns.size() - 1];
+      const double after = columns[x + 1 < columns.size() ? x + 1 : 0];
+      weights[x] = static_cast<float>((0.125 * (before + after) + 0.75 * columns[x]) * scaledAngle);
     }
   });
   levels_.push_back(std::move(texels));

@@ -1,9 +1,9 @@
 /// \file environment_light.h
-/// The environment as lights: tiles of its picture, each sampled by luminance × solid angle.
+/// The environment as lights: tiles of its picture, each sampled by scalar emission × solid angle.
 ///
-/// The weight of a texel is the luminance of the bilinear radiance integrated over the texel, times its solid angle, so
-/// that it is positive wherever any radiance is. Weights are summed in a pyramid; a tile is a node of it, and a
-/// direction is found by descending from the tile to a texel (hierarchical warping, Clarberg et al. 2005): no
+/// The weight of a texel is the bilinear interpolant of the scalar emission integrated over the texel, times its solid
+/// angle, so that it is positive wherever any radiance is. Weights are summed in a pyramid; a tile is a node of it, and
+/// a direction is found by descending from the tile to a texel (hierarchical warping, Clarberg et al. 2005): no
 /// difference of prefix sums, so that a dim texel beside the sun keeps its exact probability.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace cellcut {
 struct EnvironmentTile {
   std::uint8_t level;  ///< of the pyramid; 0 are texels
   std::uint32_t x, y;  ///< node at that level
-  double weight;       ///< mean luminance × solid angle, W/m², > 0
+  double weight;       ///< mean scalar emission × solid angle, W/m², > 0
   Vec3 axis;           ///< unit, middle of the tile
   float halfAngle;     ///< radians; every direction of the tile is within this angle of the axis
 };

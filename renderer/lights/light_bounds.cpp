@@ -1,5 +1,7 @@
 #include "renderer/lights/light_bounds.h"
 
+#include "renderer/lights/scalar_emission.h"
+
 #include <oneapi/tbb/parallel_for.h>
 
 namespace cellcut {
@@ -108,15 +110,15 @@ double peakIntensity(const Lights& lights, LightId light) {
   const std::size_t i = lights.indexInKind(light);
   switch (lights.kind(light)) {
     case LightKind::kPoint:
-      return luminance(glm::dvec3(scene.pointLights[i].intensity));
+      return scalarEmission(scene.pointLights[i].intensity);
     case LightKind::kSpot:
-      return luminance(glm::dvec3(scene.spotLights[i].intensity));
+      return scalarEmission(scene.spotLights[i].intensity);
     case LightKind::kTriangle: {
       const TriangleLight& t = lights.triangles()[i];
-      return static_cast<double>(t.meanLuminance) * triangleGeometry(scene.meshes[indexOf(t.mesh)], t.triangle).area;
+      return static_cast<double>(t.meanRadiance) * triangleGeometry(scene.meshes[indexOf(t.mesh)], t.triangle).area;
     }
     case LightKind::kDirectional:
-      return luminance(glm::dvec3(scene.directionalLights[i].irradiance));
+      return scalarEmission(scene.directionalLights[i].irradiance);
     case LightKind::kEnvironment:
       break;
   }

@@ -34,7 +34,7 @@ struct LightBounds {
 
 LightBounds merge(const LightBounds& a, const LightBounds& b);
 
-/// Peak J of a light (luminance), the unit as in LightBounds. In double: what is left of tiny triangles of tiny
+/// Peak J of a light (scalar emission), the unit as in LightBounds. In double: what is left of tiny triangles of tiny
 /// radiance.
 double peakIntensity(const Lights& lights, LightId light);
 

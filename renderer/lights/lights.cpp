@@ -2,6 +2,7 @@
 
 #include "renderer/base/capabilities.h"
 #include "renderer/base/ray.h"
+#include "renderer/lights/scalar_emission.h"
 #include "renderer/scene/material.h"
 
 #include <cassert>
@@ -176,16 +177,16 @@ double Lights::flux(LightId light) const {
   const double radius = scene_.bounds.radius();
   switch (kind(light)) {
     case LightKind::kPoint:
-      return 4 * pi * luminance(glm::dvec3(scene_.pointLights[i].intensity));
+      return 4 * pi * scalarEmission(scene_.pointLights[i].intensity);
     case LightKind::kSpot:
-      return spotSolidAngle(scene_.spotLights[i]) * luminance(glm::dvec3(scene_.spotLights[i].intensity));
+      return spotSolidAngle(scene_.spotLights[i]) * scalarEmission(scene_.spotLights[i].intensity);
     case LightKind::kTriangle: {
       const Mesh& mesh = scene_.meshes[indexOf(triangles_[i].mesh)];
       const double sides = scene_.materials[indexOf(mesh.material)].doubleSided ? 2 : 1;
-      return sides * pi * triangles_[i].meanLuminance * triangleGeometry(mesh, triangles_[i].triangle).area;
+      return sides * pi * triangles_[i].meanRadiance * triangleGeometry(mesh, triangles_[i].triangle).area;
     }
     case LightKind::kDirectional:
-      return luminance(glm::dvec3(scene_.directionalLights[i].irradiance)) * pi * radius * radius;
+      return scalarEmission(scene_.directionalLights[i].irradiance) * pi * radius * radius;
     case LightKind::kEnvironment:
       return environment_->tiles()[i].weight * pi * radius * radius;
   }
@@ -197,7 +198,7 @@ double Lights::irradiance(LightId light, const Vec3& p, const Vec3& n) const {
   const auto fromPosition = [&](const Vec3& position, const Vec3& intensity) {
     const glm::dvec3 d = glm::dvec3(position) - glm::dvec3(p);
     const double distance = glm::length(d);
-    return distance > 0 ? luminance(glm::dvec3(intensity)) * cosineAt(n, d / distance) / distance / distance : 0.0;
+    return distance > 0 ? scalarEmission(intensity) * cosineAt(n, d / distance) / distance / distance : 0.0;
   };
   switch (kind(light)) {
     case LightKind::kPoint:
@@ -214,11 +215,11 @@ double Lights::irradiance(LightId light, const Vec3& p, const Vec3& n) const {
       const TriangleGeometry triangle = triangleGeometry(mesh, triangles_[i].triangle);
       const float side = glm::dot(p - triangle.corners[0], triangle.normal);
       if (side == 0 || (side < 0 && !scene_.materials[indexOf(mesh.material)].doubleSided)) return 0;
-      return triangles_[i].meanLuminance * triangleFormFactor(triangle, p, n);
+      return triangles_[i].meanRadiance * triangleFormFactor(triangle, p, n);
     }
     case LightKind::kDirectional: {
       const DirectionalLight& directional = scene_.directionalLights[i];
-      return luminance(glm::dvec3(directional.irradiance)) * cosineAt(n, -glm::dvec3(directional.axis));
+      return scalarEmission(directional.irradiance) * cosineAt(n, -glm::dvec3(directional.axis));
     }
     case LightKind::kEnvironment: {
       // The largest cosine that any direction of the tile can have; the margin is the rounding of its float cone.

@@ -77,10 +77,10 @@ class Lights {
   /// tile.
   float environmentPdf(LightId light, Vec2 uv) const;
 
-  /// Emitted power, luminance in W; directional lights and tiles count what falls on a disk of the scene's radius.
+  /// Emitted power (scalar emission), W; directional lights and tiles count what falls on a disk of the scene's radius.
   double flux(LightId light) const;
-  /// Unoccluded irradiance (luminance, W/m²) at a point with unit normal n: exact for point, spot, directional lights
-  /// and for triangles of uniform radiance (the mean is taken), a bound for tiles. > 0 wherever the light can
+  /// Unoccluded irradiance (scalar emission, W/m²) at a point with unit normal n: exact for point, spot, directional
+  /// lights and for triangles of uniform radiance (the mean is taken), a bound for tiles. > 0 wherever the light can
   /// contribute.
   double irradiance(LightId light, const Vec3& p, const Vec3& n) const;
 

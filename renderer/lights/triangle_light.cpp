@@ -1,6 +1,7 @@
 #include "renderer/lights/triangle_light.h"
 
 #include "renderer/base/warp.h"
+#include "renderer/lights/scalar_emission.h"
 #include "renderer/scene/material.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -137,10 +138,10 @@ double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const
 
 namespace {
 
-/// Luminance of emission times coverage, averaged over a triangle; > 0 wherever some point of it emits.
+/// Scalar emission times coverage, averaged over a triangle; > 0 wherever some point of it emits.
 float meanEmission(const Scene& scene, const Mesh& mesh, std::uint32_t triangle, LitTexelsOfScene& lit) {
   const Material& material = scene.materials[indexOf(mesh.material)];
-  const double factor = luminance(glm::dvec3(material.emission));
+  const double factor = scalarEmission(material.emission);
   const bool textured = material.slot(TextureUse::kEmission).texture.has_value();
   const bool covered = material.alphaMode != AlphaMode::kOpaque;
   if (!textured && !covered) return static_cast<float>(factor);
@@ -154,7 +155,7 @@ float meanEmission(const Scene& scene, const Mesh& mesh, std::uint32_t triangle,
       const Vec2 barycentric =
           Vec2(static_cast<float>(i) + third, static_cast<float>(j / 2) + third) / static_cast<float>(n);
       const SurfaceCoordinates at{&mesh, triangle, barycentric};
-      sum += luminance(glm::dvec3(emission(scene, at))) * static_cast<double>(coverage(scene, at));
+      sum += scalarEmission(emission(scene, at)) * static_cast<double>(coverage(scene, at));
     }
   }
   const auto mean = static_cast<float>(sum / (static_cast<double>(n) * n));
@@ -179,7 +180,7 @@ std::vector<TriangleLight> collectTriangleLights(const Scene& scene) {
       lights[first + i] = {static_cast<MeshId>(m), triangle, meanEmission(scene, mesh, triangle, lit)};
     });
   }
-  std::erase_if(lights, [](const TriangleLight& light) { return !(light.meanLuminance > 0); });
+  std::erase_if(lights, [](const TriangleLight& light) { return !(light.meanRadiance > 0); });
   lights.shrink_to_fit();
   return lights;
 }

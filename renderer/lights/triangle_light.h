@@ -14,7 +14,7 @@ namespace cellcut {
 struct TriangleLight {
   MeshId mesh;
   std::uint32_t triangle;
-  float meanLuminance;  ///< of the emitted radiance over the triangle, W/(m² sr), > 0; includes coverage
+  float meanRadiance;  ///< scalar emission, mean over the triangle, W/(m² sr), > 0; includes coverage
 };
 
 /// All triangle lights of a scene, ordered by mesh and triangle. Parallel.

@@ -24,7 +24,7 @@ struct ClusterInspection {
   Bounds box;                ///< of its lights, metres; empty for distant clusters
   Cone directions;           ///< distant clusters: where their lights lie as seen from the scene; else not set
   int depth;                 ///< of its node in its tree; 0 is the root
-  double estimate;           ///< of the irradiance of a surface that faces it, W/m² (luminance)
+  double estimate;           ///< of the irradiance of a surface that faces it, W/m² (scalar emission)
   double probability;        ///< that a choice by the cut goes into it at the point; Σ is 1, or all are 0
 };
 

@@ -116,6 +116,31 @@ TEST_P(LightSamplerPmf, AgreesWithTheCountsOfSamples) {
   }
 }
 
+/// Red becomes green, green blue, blue red.
+void turnChannels(Scene& scene) {
+  const auto turn = [](Vec3& rgb) { rgb = {rgb.z, rgb.x, rgb.y}; };
+  for (PointLight& light : scene.pointLights) turn(light.intensity);
+  for (SpotLight& light : scene.spotLights) turn(light.intensity);
+  for (DirectionalLight& light : scene.directionalLights) turn(light.irradiance);
+  for (Material& material : scene.materials) turn(material.emission);
+  if (scene.environment) std::for_each(scene.environment->radiance.begin(), scene.environment->radiance.end(), turn);
+}
+
+TEST_P(LightSamplerPmf, IsTheSameForEveryChannel) {
+  const Scene scene = stage(mix(), 33, seed());
+  Scene turned = scene;
+  turnChannels(turned);
+  const Lights lights(scene), turnedLights(turned);
+  const auto sampler = samplerOf(lights), turnedSampler = samplerOf(turnedLights);
+  for (const ShadingPoint& point : pathVertices(scene, pointCount(), seed())) {
+    const std::vector<double> pmf = allPmfs(*sampler, lights, point);
+    const std::vector<double> turnedPmf = allPmfs(*turnedSampler, turnedLights, point);
+    ASSERT_EQ(turnedPmf.size(), pmf.size());
+    // A sum of three squares in another order, and floats made of it.
+    for (std::size_t i = 0; i < pmf.size(); ++i) ASSERT_NEAR(turnedPmf[i], pmf[i], 1e-5 * pmf[i]) << "light " << i;
+  }
+}
+
 CELLCUT_FOR_ALL_STRATEGIES_AND_LIGHTS(LightSamplerPmf);
 
 }  // namespace

@@ -14,7 +14,8 @@ constexpr std::uint64_t kMinHits = 1000;
 /// z-tests of one family of points: each alone, and the sum of their squares.
 class PointTests {
  public:
-  explicit PointTests(std::size_t points) : limit_(criticalZ(points)) {}
+  /// Over all points of all tests of one name: any change of the sampler draws anew in each.
+  explicit PointTests(std::size_t points) : limit_(criticalZ(points * kSamplerVariants.size() * kLightMixes.size())) {}
 
   void add(const Moments& estimate, double reference) {
     if (reference == 0) {

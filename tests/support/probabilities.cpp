@@ -1,6 +1,7 @@
 #include "tests/support/probabilities.h"
 
 #include "renderer/base/rng.h"
+#include "renderer/lights/scalar_emission.h"
 #include "tests/support/depth.h"
 #include "tests/support/reference.h"
 #include "tests/support/statistics.h"
@@ -31,11 +32,11 @@ bool isCornerOf(const Lights& lights, LightId light, const Vec3& p) {
   return std::find(corners.begin(), corners.end(), p) != corners.end();
 }
 
-/// Irradiance, luminance.
+/// Irradiance, as lights are weighed by.
 double contribution(const Lights& lights, LightId light, const ShadingPoint& point) {
   constexpr int kQuadrature = 4;  // cells per side: whether light arrives at all
   if (lights.liesAt(light, point.p) || isCornerOf(lights, light, point.p)) return 0;
-  return luminance(referenceIrradiance(lights, light, point.p, point.n, kQuadrature));
+  return scalarEmission(referenceIrradiance(lights, light, point.p, point.n, kQuadrature));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "ui/overlays/light_contribution.h"
 
 #include "renderer/base/rng.h"
+#include "renderer/lights/scalar_emission.h"
 
 namespace cellcut {
 namespace {
@@ -34,20 +35,21 @@ Contribution contributionOf(const Lights& lights, const Accel& accel, LightId li
   const LightKind kind = lights.kind(light);
   const bool hasExtent = kind == LightKind::kTriangle || kind == LightKind::kEnvironment;
   const int perSide = hasExtent ? samplesPerSide : 1;
-  Contribution sum;
+  glm::dvec3 unoccluded(0), visible(0);
   for (int i = 0; i < perSide * perSide; ++i) {
     const Vec2 u = (Vec2(i % perSide, i / perSide) + Vec2(0.5f)) / static_cast<float>(perSide);
     const std::optional<LightSample> sample = lights.sample(light, at.point.p, u);
     if (!sample) continue;
     const double cosine = cosineOf(*sample, at.point.n);
     if (cosine == 0) continue;
-    const double value = luminance(glm::dvec3(sample->radiance)) * cosine / static_cast<double>(sample->pdf);
-    sum.unoccluded += value;
+    const glm::dvec3 value = glm::dvec3(sample->radiance) * cosine / static_cast<double>(sample->pdf);
+    unoccluded += value;
     const auto seed = static_cast<std::uint32_t>(hashOf(static_cast<std::uint64_t>(light), i));
-    if (value > 0) sum.visible += value * visibility(accel, *sample, at, seed);
+    if (value != glm::dvec3(0)) visible += value * visibility(accel, *sample, at, seed);
   }
   const double samples = static_cast<double>(perSide) * perSide;
-  if (!hasExactIrradiance(lights, light)) return {sum.unoccluded / samples, sum.visible / samples};
+  const Contribution sum{scalarEmission(unoccluded) / samples, scalarEmission(visible) / samples};
+  if (!hasExactIrradiance(lights, light)) return sum;
   const double exact = lights.irradiance(light, at.point.p, at.point.n);
   return {exact, sum.unoccluded > 0 ? exact * (sum.visible / sum.unoccluded) : 0};
 }

@@ -2,6 +2,7 @@
 
 #include "renderer/base/rng.h"
 #include "renderer/lights/lights.h"
+#include "renderer/lights/scalar_emission.h"
 #include "tests/support/depth.h"
 #include "tests/support/reference.h"
 #include "tests/support/scenes.h"
@@ -114,7 +115,7 @@ TEST_P(Skies, WeightsAreTheEnergyOfTheirTiles) {
       const double azimuth = std::numbers::pi * (x + 0.5) / kSide;
       const glm::dvec3 direction(std::sin(polar) * std::cos(azimuth), std::cos(polar),
                                  std::sin(polar) * std::sin(azimuth));
-      energy += luminance(referenceEnvironment(environment_, direction)) * std::sin(polar);
+      energy += scalarEmission(referenceEnvironment(environment_, direction)) * std::sin(polar);
     }
   }
   energy *= std::numbers::pi / kSide * std::numbers::pi / kSide;

@@ -184,11 +184,11 @@ TEST(TriangleLight, ScalesExactlyByPowersOfTwo) {
 }
 
 /// Two triangles for each of these quads beside each other, which emit what the texture says.
-Scene texturedQuads(ImageRgba8 texels, int quads) {
+Scene texturedQuads(ImageRgba8 texels, int quads, const Vec3& emission = {1, 0, 0}) {
   Scene scene;
   scene.texels.push_back(std::move(texels));
   scene.textures.push_back({TexelsId{0}});
-  Material material = emitter(Vec3(1, 0, 0), true);
+  Material material = emitter(emission, true);
   material.setSlot(TextureUse::kEmission, {.texture = TextureId{0}});
   const MaterialId id = addMaterial(scene, material);
   for (int i = 0; i < quads; ++i) addQuad(scene, id, Vec3(i, 0, 0), {1, 0, 0}, {0, 1, 0});
@@ -201,6 +201,23 @@ TEST(TriangleLight, BlackTexturesOfAnySizeTakeNoTime) {
   const Scene scene = texturedQuads(std::move(texels), 500);
   const HostileBudget budget("black texture");
   EXPECT_TRUE(collectTriangleLights(scene).empty());
+}
+
+TEST(TriangleLight, WeighTheSameInEachChannelOfATexture) {
+  ImageRgba8 texels(16, 16, {255, 255, 255, 255});
+  for (int i = 0; i < 16; ++i) texels.at(i, i) = {0, 0, 0, 255};
+  const auto weights = [&](const Vec3& emission) {
+    std::vector<float> result;
+    for (const TriangleLight& light : collectTriangleLights(texturedQuads(texels, 1, emission)))
+      result.push_back(light.meanRadiance);
+    return result;
+  };
+  const std::vector<float> red = weights({1, 0, 0});
+  ASSERT_EQ(red.size(), 2u);
+  // The diagonal is a sixteenth, which a bilinear lookup spreads but does not brighten or darken.
+  EXPECT_NEAR(red[0] + red[1], 2 * 0.9375f / std::sqrt(3.0f), 0.01f);
+  EXPECT_EQ(weights({0, 1, 0}), red);
+  EXPECT_EQ(weights({0, 0, 1}), red);
 }
 
 TEST(TriangleLight, AreThoseWithALitTexel) {

@@ -1,5 +1,6 @@
 #include "ui/overlays/cell_inspector.h"
 
+#include "renderer/lights/scalar_emission.h"
 #include "renderer/scene/camera.h"
 #include "tests/support/frozen_render.h"
 #include "tests/support/reference.h"
@@ -42,7 +43,8 @@ TEST_P(InspectorTruth, ContributionsAreThoseOfAnIndependentSum) {
       for (const LightId light : inspector.lights(row.cluster)) {
         const ShadingPoint& point = report.hit.point;
         const auto sum = [&](const Accel* occluders) {
-          return luminance(referenceIrradiance(inspected.run.lights, light, point.p, point.n, kPerSide, occluders));
+          return scalarEmission(
+              referenceIrradiance(inspected.run.lights, light, point.p, point.n, kPerSide, occluders));
         };
         unoccluded += sum(nullptr);
         visible += sum(&inspected.run.accel);
