@@ -111,7 +111,7 @@ int runCommandLine(std::span<const char* const> args, std::ostream& out, std::os
     err << "cellcut: " << oneLine(error.what()) << '\n';
     return kBadInput;
   } catch (const std::bad_alloc&) {
-    err << "cellcut: not enough memory; a smaller --size or a scene with fewer triangles needs less\n";
+    err << kNotEnoughMemory;
     return kFailed;
   } catch (const std::exception& error) {
     err << "cellcut: " << oneLine(error.what()) << '\n';

@@ -15,6 +15,9 @@ enum ExitCode : int {
   kBadInput = 2,  ///< usage or input that cannot be used
 };
 
+inline constexpr const char* kNotEnoughMemory =
+    "cellcut: not enough memory; a smaller --size or a scene with fewer triangles needs less\n";
+
 /// Runs the program. Never throws: what went wrong is one line on `err`.
 /// \param args      the program's name and its arguments, as main() gets them
 /// \param terminal  `err` is a terminal: progress is one line that is redrawn

@@ -105,11 +105,12 @@ ObjOutline readOutline(std::span<char> obj) {
   return outline;
 }
 
-std::string plainMtl(std::string_view mtl) {
-  std::string plain;
+PlainMtl plainMtl(std::string_view mtl) {
+  PlainMtl plain;
+  std::string& text = plain.text;
   bool isInMaterial = false, hasDiffuse = false, hasPicture = false;
   const auto endMaterial = [&] {
-    if (isInMaterial && !hasDiffuse) plain += hasPicture ? "Kd 1 1 1\n" : "Kd 0.8 0.8 0.8\n";
+    if (isInMaterial && !hasDiffuse) text += hasPicture ? "Kd 1 1 1\n" : "Kd 0.8 0.8 0.8\n";
     hasDiffuse = hasPicture = false;
   };
   forEachLine(mtl, [&](std::size_t, std::string_view line) {
@@ -123,15 +124,16 @@ std::string plainMtl(std::string_view mtl) {
     if (keyword == "newmtl") {
       endMaterial();
       isInMaterial = true;
-      plain.append("newmtl ").append(unquoted(rest));
+      text.append("newmtl ").append(std::to_string(plain.names.size()));
+      plain.names.emplace_back(unquoted(rest));
     } else if (isColor(keyword) && isNumber(first) && trimmed(afterFirst).empty()) {
-      for (const std::string_view text : {keyword, first, first, first}) plain.append(text).append(" ");
+      for (const std::string_view word : {keyword, first, first, first}) text.append(word).append(" ");
     } else if (keyword.starts_with("map_")) {
-      plain.append(keyword).append(withThreeNumbers(rest));
+      text.append(keyword).append(withThreeNumbers(rest));
     } else if (keyword != "d" || first != "-halo") {
-      plain.append(line);
+      text.append(line);
     }
-    plain += '\n';
+    text += '\n';
   });
   endMaterial();
   return plain;

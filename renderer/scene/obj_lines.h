@@ -31,9 +31,15 @@ struct ObjOutline {
 /// \pre lines are joined
 ObjOutline readOutline(std::span<char> obj);
 
-/// The library with three numbers wherever one stands for three (Ka, Kd, Ks, Ke, -o, -s, -t), names without blanks around
-/// them, and a Kd in every material: 1 below a map_Kd, else 0.8. A dissolve with -halo is left out.
+struct PlainMtl {
+  std::string text;
+  std::vector<std::string> names;  ///< of the materials, which are called "0", "1", ... in the text
+};
+
+/// The library with three numbers wherever one stands for three (Ka, Kd, Ks, Ke, -o, -s, -t), numbers for names, which
+/// tinyobjloader ends at a blank from version 2.0 rc13 on, and a Kd in every material: 1 below a map_Kd, else 0.8. A
+/// dissolve with -halo is left out.
 /// \pre lines are joined
-std::string plainMtl(std::string_view mtl);
+PlainMtl plainMtl(std::string_view mtl);
 
 }  // namespace cellcut

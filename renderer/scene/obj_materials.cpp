@@ -122,24 +122,24 @@ std::map<std::string, MaterialId> readMtl(const SceneFolder& folder, const std::
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
-  std::istringstream stream(plainMtl({text.data(), text.size()}));
+  const PlainMtl plain = plainMtl({text.data(), text.size()});
+  std::istringstream stream(plain.text);
   tinyobj::LoadMtl(&indices, &materials, &stream, &warnings, &errors);
   const std::string name = std::filesystem::path(library).filename().string();
   if (!errors.empty())
     throw InputError(name, printable(errors.substr(0, errors.find('\n'))) + "; export the file again");
 
+  std::map<std::string, MaterialId> ids;
+  for (std::size_t i = 0; i < plain.names.size(); ++i) {
+    const auto index = static_cast<std::size_t>(indices.at(std::to_string(i)));
+    materials[index].name = plain.names[i];
+    ids.try_emplace(plain.names[i], MaterialId{static_cast<std::uint32_t>(scene.materials.size() + index)});
+  }
   Pictures pictures(folder, library, scene);
-  const std::size_t first = scene.materials.size();
   for (const tinyobj::material_t& source : materials) {
     scene.materials.push_back(materialOf(source, name + ": " + printable(source.name), pictures));
   }
   pictures.decode(maxTextureBytes);
-  std::map<std::string, MaterialId> ids;
-  for (const auto& [material, index] : indices) {
-    if (index >= 0 && static_cast<std::size_t>(index) < materials.size()) {
-      ids[material] = MaterialId{static_cast<std::uint32_t>(first + static_cast<std::size_t>(index))};
-    }
-  }
   return ids;
 }
 
