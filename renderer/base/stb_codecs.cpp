@@ -81,12 +81,58 @@ void checkPngData(std::span<const std::byte> png, glm::ivec2 size, const std::st
   }
 }
 
+/// The tables that a JPEG has defined so far. stb decodes a scan whose tables are missing by memory that nobody wrote, and
+/// reads anywhere. Source: ITU-T T.81, section B.2.
+class JpegTables {
+ public:
+  /// \param segment  after its length; what is missing at its end is 0, as stb takes it
+  void read(unsigned marker, std::span<const std::byte> segment) {
+    constexpr unsigned kBaseline = 0xc0, kExtended = 0xc1, kProgressive = 0xc2, kHuffman = 0xc4, kQuantization = 0xdb;
+    const auto byte = [&](std::size_t at) { return at < segment.size() ? std::to_integer<unsigned>(segment[at]) : 0; };
+    if (marker == kBaseline || marker == kExtended || marker == kProgressive) {
+      progressive_ = marker == kProgressive;
+      for (std::size_t i = 0; i < byte(5); ++i) quantizationOf_[byte(6 + 3 * i)] = byte(8 + 3 * i) % 4;
+    } else if (marker == kQuantization) {
+      for (std::size_t at = 0; at<segment.size(); at += byte(at) / 16> 0 ? 129 : 65) quantization_[byte(at) % 4] = true;
+    } else if (marker == kHuffman) {
+      for (std::size_t at = 0; at < segment.size();) {
+        huffman_[byte(at) / 16 % 2][byte(at) % 4] = true;
+        std::size_t codes = 0;
+        for (std::size_t i = 1; i <= 16; ++i) codes += byte(at + i);
+        at += 17 + codes;
+      }
+    }
+  }
+  /// Whether all are there that a scan needs.
+  bool suffice(std::span<const std::byte> scan) const {
+    const auto byte = [&](std::size_t at) { return at < scan.size() ? std::to_integer<unsigned>(scan[at]) : 0; };
+    const std::size_t components = byte(0);
+    const unsigned firstCoefficient = byte(1 + 2 * components), refined = byte(3 + 2 * components) / 16;
+    const bool needsDc = !progressive_ || (firstCoefficient == 0 && refined == 0);
+    const bool needsAc = !progressive_ || firstCoefficient > 0;
+    for (std::size_t i = 0; i < components; ++i) {
+      const unsigned tables = byte(2 + 2 * i);
+      if (needsDc && !huffman_[0][tables / 16 % 4]) return false;
+      if (needsAc && !huffman_[1][tables % 4]) return false;
+      if (!quantization_[quantizationOf_[byte(1 + 2 * i)]]) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool progressive_ = false;
+  std::array<unsigned, 256> quantizationOf_{};    ///< by component
+  std::array<bool, 4> quantization_{};            ///< by number
+  std::array<std::array<bool, 4>, 2> huffman_{};  ///< of DC, of AC coefficients, by number
+};
+
 /// stb goes over the whole picture for every scan, of which a small file may have thousands.
 void checkJpegScans(std::span<const std::byte> jpeg, const std::string& name) {
   // A component is in one scan but in progressive pictures. Most of those have 10, and many in a picture are quick.
   constexpr int kMaxScans = 4, kMaxProgressiveScans = 128;
   constexpr unsigned kStuffed = 0x00, kProgressive = 0xc2, kRestart0 = 0xd0, kStart = 0xd8, kEnd = 0xd9, kScan = 0xda;
   int scans = 0, most = kMaxScans;
+  JpegTables tables;
   for (std::size_t at = 0; at + 3 < jpeg.size();) {
     const unsigned first = std::to_integer<unsigned>(jpeg[at]), marker = std::to_integer<unsigned>(jpeg[at + 1]);
     ++at;
@@ -98,7 +144,13 @@ void checkJpegScans(std::span<const std::byte> jpeg, const std::string& name) {
     if (marker == kScan && ++scans > most) {
       throw InputError(name, "has more than " + std::to_string(most) + " JPEG scans; save it again");
     }
-    at += bigEndian16(jpeg, at);
+    const std::size_t length = std::clamp<std::size_t>(bigEndian16(jpeg, at), 2, jpeg.size() - at);
+    const std::span<const std::byte> segment = jpeg.subspan(at + 2, length - 2);
+    if (marker == kScan && !tables.suffice(segment)) {
+      throw InputError(name, "a JPEG scan comes before its tables; save it again");
+    }
+    tables.read(marker, segment);
+    at += length;
   }
 }
 

@@ -151,6 +151,25 @@ TEST(ImageIo, ReadsJpeg) {
   for (const auto& pixel : image) EXPECT_EQ(glm::ivec4(pixel), glm::ivec4(128, 128, 128, 255));
 }
 
+TEST(ImageIo, RefusesJpegsThatLackATable) {
+  constexpr std::ptrdiff_t kQuantization = 2, kDc = 84, kAc = 106, kScan = 128;  // where each begins
+  const auto without = [](std::ptrdiff_t first, std::ptrdiff_t end) {
+    std::vector<std::byte> file = greyJpeg();
+    file.erase(file.begin() + first, file.begin() + end);
+    return file;
+  };
+  for (const auto& file : {without(kQuantization, 71), without(kDc, kAc), without(kAc, kScan)}) {
+    EXPECT_EQ(imageBytesRefusal(file), "picture: a JPEG scan comes before its tables; save it again");
+  }
+  // The first scan of a progressive picture needs the table of AC coefficients no more than a later one that of DC.
+  std::vector<std::byte> progressive = without(kAc, kScan);
+  progressive[7 + 64 + 1] = std::byte{0xc2};
+  progressive[progressive.size() - 5] = std::byte{0};  // the last coefficient of the scan
+  EXPECT_EQ(decodeImage8(progressive, "DC alone").width(), 8);
+  progressive[progressive.size() - 6] = std::byte{1};  // its first
+  EXPECT_EQ(imageBytesRefusal(progressive), "picture: a JPEG scan comes before its tables; save it again");
+}
+
 /// The same with its scan so many times.
 std::vector<std::byte> jpegOfScans(std::size_t count) {
   std::vector<std::byte> file = greyJpeg();
