@@ -85,15 +85,19 @@ void checkPngData(std::span<const std::byte> png, glm::ivec2 size, const std::st
 /// reads anywhere. Source: ITU-T T.81, section B.2.
 class JpegTables {
  public:
-  /// \param segment  after its length; what is missing at its end is 0, as stb takes it
+  /// \param segment  after its length
   void read(unsigned marker, std::span<const std::byte> segment) {
     constexpr unsigned kBaseline = 0xc0, kExtended = 0xc1, kProgressive = 0xc2, kHuffman = 0xc4, kQuantization = 0xdb;
-    const auto byte = [&](std::size_t at) { return at < segment.size() ? std::to_integer<unsigned>(segment[at]) : 0; };
+    const auto byte = [&](std::size_t at) { return byteOf(segment, at); };
     if (marker == kBaseline || marker == kExtended || marker == kProgressive) {
       progressive_ = marker == kProgressive;
       for (std::size_t i = 0; i < byte(5); ++i) quantizationOf_[byte(6 + 3 * i)] = byte(8 + 3 * i) % 4;
     } else if (marker == kQuantization) {
-      for (std::size_t at = 0; at<segment.size(); at += byte(at) / 16> 0 ? 129 : 65) quantization_[byte(at) % 4] = true;
+      for (std::size_t at = 0; at < segment.size();) {
+        quantization_[byte(at) % 4] = true;
+        const bool isWide = byte(at) >= 16;
+        at += isWide ? 129 : 65;
+      }
     } else if (marker == kHuffman) {
       for (std::size_t at = 0; at < segment.size();) {
         huffman_[byte(at) / 16 % 2][byte(at) % 4] = true;
@@ -105,7 +109,7 @@ class JpegTables {
   }
   /// Whether all are there that a scan needs.
   bool suffice(std::span<const std::byte> scan) const {
-    const auto byte = [&](std::size_t at) { return at < scan.size() ? std::to_integer<unsigned>(scan[at]) : 0; };
+    const auto byte = [&](std::size_t at) { return byteOf(scan, at); };
     const std::size_t components = byte(0);
     const unsigned firstCoefficient = byte(1 + 2 * components), refined = byte(3 + 2 * components) / 16;
     const bool needsDc = !progressive_ || (firstCoefficient == 0 && refined == 0);
@@ -120,6 +124,10 @@ class JpegTables {
   }
 
  private:
+  /// What is missing at the end is 0, as stb takes it.
+  static unsigned byteOf(std::span<const std::byte> segment, std::size_t at) {
+    return at < segment.size() ? std::to_integer<unsigned>(segment[at]) : 0;
+  }
   bool progressive_ = false;
   std::array<unsigned, 256> quantizationOf_{};    ///< by component
   std::array<bool, 4> quantization_{};            ///< by number

@@ -1,7 +1,8 @@
 /// \file light_contribution.h
 /// What one light truly sends to a point: brute force, for comparison with what a strategy expects of it.
 ///
-/// Unit: scalar emission of the irradiance, W/m², of a surface with the point's shading normal; the material is not asked.
+/// Unit: scalar emission of the irradiance, W/m², of a surface with the point's shading normal; the material is not
+/// asked.
 /// Threads: may run concurrently.
 #pragma once
 
