@@ -22,6 +22,8 @@ namespace cellcut {
 bool isExr(std::span<const std::byte> encoded);
 bool isHdr(std::span<const std::byte> encoded);
 bool isPfm(std::span<const std::byte> encoded);
+bool isPng(std::span<const std::byte> encoded);
+bool isJpeg(std::span<const std::byte> encoded);
 
 /// OpenEXR: scan lines or tiles, half, float or uint; the first part that has R, G and B, or Y, without a layer's
 /// prefix. The picture is the display window; pixels outside of the data window are black. Deep data and subsampled
@@ -41,6 +43,12 @@ ImageRgb decodePfm(std::span<const std::byte> encoded, const std::string& name,
 
 /// Little-endian colour PFM.
 std::vector<std::byte> encodePfm(const ImageRgb& image);
+
+/// What imageSize8 and decodeImage8 do for each kind.
+glm::ivec2 pngSize(std::span<const std::byte> encoded, const std::string& name);
+glm::ivec2 jpegSize(std::span<const std::byte> encoded, const std::string& name);
+ImageRgba8 decodePng8(std::span<const std::byte> encoded, const std::string& name);
+ImageRgba8 decodeJpeg8(std::span<const std::byte> encoded, const std::string& name, std::string* damage);
 
 /// 8-bit PNG of `components` (3: RGB, 4: RGBA) interleaved components.
 std::vector<std::byte> encodePng8(int width, int height, int components, const std::uint8_t* pixels);

@@ -46,6 +46,18 @@ ImageRgb readImage(const std::filesystem::path& file, std::uint64_t maxBytes) {
   return decodeImage(readFile(file, kMaxFileBytes), file.string(), maxBytes);
 }
 
+glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& name) {
+  if (isPng(encoded)) return pngSize(encoded, name);
+  if (isJpeg(encoded)) return jpegSize(encoded, name);
+  throw InputError(name, "is no PNG or JPEG picture; convert it to one");
+}
+
+ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name, std::string* damage) {
+  if (isPng(encoded)) return decodePng8(encoded, name);
+  if (isJpeg(encoded)) return decodeJpeg8(encoded, name, damage);
+  throw InputError(name, "is no PNG or JPEG picture; convert it to one");
+}
+
 std::vector<std::byte> encodePng(const ImageRgba8& image) {
   return encodePng8(image.width(), image.height(), 4, reinterpret_cast<const std::uint8_t*>(image.data()));
 }

@@ -55,8 +55,9 @@ ImageRgb decodeImage(std::span<const std::byte> encoded, const std::string& name
 glm::ivec2 imageSize8(std::span<const std::byte> encoded, const std::string& name);
 
 /// Decodes a PNG or JPEG that lies in memory. `name` is used in messages only.
+/// \param damage  set to what is wrong with a JPEG that can be shown all the same, such as one that was cut off
 /// \throws InputError as readImage.
-ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name);
+ImageRgba8 decodeImage8(std::span<const std::byte> encoded, const std::string& name, std::string* damage = nullptr);
 
 /// Encodes 8-bit RGBA as PNG.
 std::vector<std::byte> encodePng(const ImageRgba8& image);

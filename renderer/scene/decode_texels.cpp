@@ -1,6 +1,7 @@
 #include "renderer/scene/decode_texels.h"
 
 #include "renderer/base/error.h"
+#include "renderer/scene/scene_draft.h"
 
 #include <optional>
 
@@ -24,19 +25,22 @@ void checkTextureBytes(std::span<const EncodedImage> images, std::uint64_t maxBy
 
 }  // namespace
 
-std::vector<ImageRgba8> decodeTexels(std::span<const EncodedImage> images, std::uint64_t maxBytes) {
+std::vector<ImageRgba8> decodeTexels(std::span<const EncodedImage> images, std::uint64_t maxBytes, Scene& scene) {
   checkTextureBytes(images, maxBytes);
   std::vector<ImageRgba8> texels(images.size());
-  std::vector<std::optional<InputError>> errors(images.size());  // so that the first is reported, whoever comes first
+  // Reported in order, whoever comes first.
+  std::vector<std::optional<InputError>> errors(images.size());
+  std::vector<std::string> damages(images.size());
   tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t i) {
     try {
-      texels[i] = decodeImage8(images[i].bytes, images[i].name);
+      texels[i] = decodeImage8(images[i].bytes, images[i].name, &damages[i]);
     } catch (const InputError& error) {
       errors[i] = error;
     }
   });
-  for (const std::optional<InputError>& error : errors) {
-    if (error) throw *error;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (errors[i]) throw *errors[i];
+    if (!damages[i].empty()) warnOnce(scene, images[i].name + " is damaged and may show in parts only: " + damages[i]);
   }
   return texels;
 }

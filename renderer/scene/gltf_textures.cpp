@@ -92,7 +92,7 @@ std::span<const std::byte> GltfTextures::encoded(std::size_t image) const {
 void GltfTextures::decode(std::uint64_t maxBytes) {
   std::vector<EncodedImage> images;
   for (const std::size_t image : images_) images.push_back({placeOf(document_, "images", image), encoded(image)});
-  scene_.texels = decodeTexels(images, maxBytes);
+  scene_.texels = decodeTexels(images, maxBytes, scene_);
 }
 
 }  // namespace cellcut

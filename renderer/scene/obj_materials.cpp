@@ -56,7 +56,7 @@ class Pictures {
     for (const ImageRgba8& before : scene_.texels) maxBytes -= std::min<std::uint64_t>(maxBytes, before.bytes());
     std::vector<EncodedImage> encoded;
     for (std::size_t i = 0; i < files_.size(); ++i) encoded.push_back({names_[i], files_[i]});
-    std::vector<ImageRgba8> texels = decodeTexels(encoded, maxBytes);
+    std::vector<ImageRgba8> texels = decodeTexels(encoded, maxBytes, scene_);
     std::move(texels.begin(), texels.end(), std::back_inserter(scene_.texels));
   }
 

@@ -207,6 +207,17 @@ TEST_F(ObjLoader, MaterialsWithoutKdAreGreyOrWhollyTheirPicture) {
   EXPECT_EQ(scene.materials.at(2).baseColor, Vec4(0, 0, 0, 1));
 }
 
+TEST_F(ObjLoader, PicturesThatAreDamagedAreShownWithAWarning) {
+  std::string jpeg{"\xff\xd8\xff\xdb\0\x43\0", 7};
+  jpeg += std::string(64, '\1') + std::string("\xff\xc0\0\xb\x8\0\x8\0\x8\1\1\x11\0", 13);
+  test::writeFile(folder / "t.jpg", jpeg + std::string("\xff\xda\0\x8\1\1\0\0\x3f\0", 10));
+  test::writeFile(folder / "m.mtl", "newmtl a\nmap_Kd t.jpg\n");
+  const Scene scene = load("mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n");
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "t.jpg is damaged and may show in parts only: Premature end of JPEG file");
+  EXPECT_EQ(scene.texels.at(0).at(7, 7), ImageRgba8::value_type(128, 128, 128, 255));
+}
+
 TEST_F(ObjLoader, PicturesAreScaledAndMovedAndLieBesideTheirLibrary) {
   std::filesystem::create_directory(folder / "sub");
   test::writeFile(folder / "sub/t 1.png", encodePng(ImageRgba8(2, 2, {9, 8, 7, 255})));
