@@ -14,7 +14,7 @@ namespace cellcut {
 namespace {
 
 // A block of 8 × 8 pixels takes at least one bit.
-constexpr std::int64_t kPixelsPerByte = 8 * 64;
+constexpr std::int64_t kJpegPixelsPerByte = 8 * 64;
 // Each goes over the whole picture, however few bytes it has. Most progressive pictures have 10.
 constexpr int kMaxScans = 128;
 
@@ -97,7 +97,7 @@ glm::ivec2 jpegSize(std::span<const std::byte> encoded, const std::string& name)
   Decompressor decompressor(name);
   decompressor.readHeader(encoded);
   const glm::ivec2 size(decompressor.info().image_width, decompressor.info().image_height);
-  checkImageSize(size.x, size.y, encoded.size(), kPixelsPerByte, name);
+  checkImageSize(size.x, size.y, encoded.size(), kJpegPixelsPerByte, name);
   return size;
 }
 

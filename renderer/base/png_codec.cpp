@@ -15,11 +15,11 @@ namespace cellcut {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 // Deflate packs at most 1032 bytes into one (zlib's documentation), and a byte of a 1-bit PNG is 8 pixels.
 constexpr std::uint64_t kDeflateRatio = 1032;
-constexpr std::int64_t kPixelsPerByte = kDeflateRatio * 8;
+constexpr std::int64_t kPngPixelsPerByte = kDeflateRatio * 8;
 
 std::uint32_t bigEndian32(std::span<const std::byte> bytes, std::size_t at) {
   std::uint32_t number = 0;
@@ -34,7 +34,7 @@ void forEachPngChunk(std::span<const std::byte> png, const std::string& name, co
   constexpr std::size_t kHeader = 8;  // length and type
   constexpr std::size_t kChecksum = 4;
   constexpr std::uint32_t kEnd = 0x49454e44;  // "IEND"
-  std::size_t at = kSignature.size();
+  std::size_t at = kPngSignature.size();
   while (png.size() - at >= kHeader) {
     const std::uint64_t length = bigEndian32(png, at);
     const std::uint32_t type = bigEndian32(png, at + 4);
@@ -79,7 +79,8 @@ struct StbFree {
 }  // namespace
 
 bool isPng(std::span<const std::byte> encoded) {
-  return encoded.size() >= kSignature.size() && std::memcmp(encoded.data(), kSignature.data(), kSignature.size()) == 0;
+  return encoded.size() >= kPngSignature.size() &&
+         std::memcmp(encoded.data(), kPngSignature.data(), kPngSignature.size()) == 0;
 }
 
 glm::ivec2 pngSize(std::span<const std::byte> encoded, const std::string& name) {
@@ -90,7 +91,7 @@ glm::ivec2 pngSize(std::span<const std::byte> encoded, const std::string& name) 
   if (!stbi_info_from_memory(bytes, static_cast<int>(encoded.size()), &width, &height, &components)) {
     throw InputError(name, std::string("has no valid header (") + stbi_failure_reason() + "); save it again");
   }
-  checkImageSize(width, height, encoded.size(), kPixelsPerByte, name);
+  checkImageSize(width, height, encoded.size(), kPngPixelsPerByte, name);
   return {width, height};
 }
 

@@ -9,15 +9,15 @@ namespace cellcut {
 namespace {
 
 /// Adds the nanoseconds that it lives to a counter.
-class Stopwatch {
+class AddElapsed {
  public:
-  explicit Stopwatch(std::atomic<std::uint64_t>& sum) : sum_(sum) {}
-  ~Stopwatch() {
+  explicit AddElapsed(std::atomic<std::uint64_t>& sum) : sum_(sum) {}
+  ~AddElapsed() {
     const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start_);
     sum_.fetch_add(static_cast<std::uint64_t>(elapsed.count()), std::memory_order_relaxed);
   }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
+  AddElapsed(const AddElapsed&) = delete;
+  AddElapsed& operator=(const AddElapsed&) = delete;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -34,12 +34,12 @@ CellCutSampler::CellCutSampler(const Lights& lights, const SamplerSettings& sett
       cells_(settings.cellMemory) {}
 
 Cut CellCutSampler::makeCutTimed(const Region& region, const CutSettings& settings) const {
-  const Stopwatch stopwatch(makeNanoseconds_);
+  const AddElapsed timing(makeNanoseconds_);
   return makeCut(trees_, region, settings);
 }
 
 FarChoice CellCutSampler::makeFarChoice(const Cut& cut, std::size_t facing) const {
-  const Stopwatch stopwatch(makeNanoseconds_);
+  const AddElapsed timing(makeNanoseconds_);
   return cut.makeFarChoice(facing);
 }
 
