@@ -5,9 +5,10 @@
 #include <array>
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs it
+#include <new>
+
 #include <jerror.h>
 #include <jpeglib.h>
-#include <new>
 
 namespace cellcut {
 
@@ -55,11 +56,14 @@ class Decompressor {
     errors_.format_message(reinterpret_cast<j_common_ptr>(&info_), reason.data());
     throw InputError(name_, std::string(failure) + " (" + reason.data() + "); save it again");
   }
-  void readHeader(std::span<const std::byte> encoded) {
+  /// Comes first. \return width and height, checked
+  glm::ivec2 readHeader(std::span<const std::byte> encoded) {
     run("has no valid header", [&] {
       jpeg_mem_src(&info_, reinterpret_cast<const unsigned char*>(encoded.data()), encoded.size());
       jpeg_read_header(&info_, TRUE);
     });
+    checkImageSize(info_.image_width, info_.image_height, encoded.size(), kJpegPixelsPerByte, name_);
+    return {info_.image_width, info_.image_height};
   }
   jpeg_decompress_struct& info() { return info_; }
   /// The first thing that was wrong and passed over; "" if nothing was.
@@ -94,17 +98,12 @@ bool isJpeg(std::span<const std::byte> encoded) {
 }
 
 glm::ivec2 jpegSize(std::span<const std::byte> encoded, const std::string& name) {
-  Decompressor decompressor(name);
-  decompressor.readHeader(encoded);
-  const glm::ivec2 size(decompressor.info().image_width, decompressor.info().image_height);
-  checkImageSize(size.x, size.y, encoded.size(), kJpegPixelsPerByte, name);
-  return size;
+  return Decompressor(name).readHeader(encoded);
 }
 
 ImageRgba8 decodeJpeg8(std::span<const std::byte> encoded, const std::string& name, std::string* damage) {
-  const glm::ivec2 size = jpegSize(encoded, name);
   Decompressor decompressor(name);
-  decompressor.readHeader(encoded);
+  const glm::ivec2 size = decompressor.readHeader(encoded);
   jpeg_decompress_struct& info = decompressor.info();
   const bool isCmyk = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
   info.out_color_space = isCmyk ? JCS_CMYK : JCS_EXT_RGBA;
