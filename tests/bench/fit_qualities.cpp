@@ -67,6 +67,7 @@ std::vector<Score> scores() {
   double cases = 0;
   const std::vector<Quality> all = candidates();
   std::vector<Score> sums;
+  sums.reserve(all.size());
   for (const Quality& quality : all) sums.push_back({quality.settings, 0, 0, 0});
   for (const auto& [recipe, lights, maxDepth] :
        {Case{Recipe::kRooms, 4000, 1}, Case{Recipe::kStreet, 4000, 1}, Case{Recipe::kHall, 4000, 1},

@@ -151,6 +151,7 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
   };
   const Scene fine = quad(16, 16);
   std::vector<double> references;
+  references.reserve(receivers.size());
   for (const Receiver& receiver : receivers) references.push_back(referenceReflected(fine, receiver));
   // 2, 32 and 10,000 triangles; a strategy of O(N) cannot have the last on every change.
   for (const auto& [columns, rows] :

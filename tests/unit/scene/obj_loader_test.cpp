@@ -157,7 +157,7 @@ TEST_F(ObjLoader, FindsLibrariesAndMaterialsHoweverTheyAreNamed) {
            "mtllib \"my lamps.mtl\"\n" + use,
            "mtllib m.mtl other.mtl\n" + use,
            "mtllib gone.mtl m.mtl\n" + use,
-           "mtllib" + many + " m.mtl\n" + use,
+           std::string("mtllib").append(many).append(" m.mtl\n") + use,
            "\xEF\xBB\xBFmtllib m.mtl\n" + use,
            "mtllib m.mtl\nmtllib m.mtl\nmtllib other.mtl\n" + use,
            "mtllib m.mtl\n" + kTriangle + "usemtl  a lamp \nf 1 2 3\n",
