@@ -13,12 +13,14 @@
 
 #include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfTileDescription.h>
 
 namespace cellcut {
@@ -144,6 +146,17 @@ int findPart(const Imf::MultiPartInputFile& file, const std::string& name) {
   throw InputError(name, "has no flat picture with channels R, G and B, or Y alone; save one without a layer's prefix");
 }
 
+/// Colors of the file's primaries as those of Rec. 709, linear. The white point is not adapted, as in pbrt.
+void convertToRec709(const Imf::Header& header, ImageRgb& image) {
+  const Imf::Chromaticities rec709;  // what a file without the attribute has
+  if (!Imf::hasChromaticities(header) || Imf::chromaticities(header) == rec709) return;
+  const Imath::M44f matrix = Imf::RGBtoXYZ(Imf::chromaticities(header), 1) * Imf::XYZtoRGB(rec709, 1);
+  for (Vec3& pixel : image) {
+    const Imath::V3f converted = Imath::V3f(pixel.x, pixel.y, pixel.z) * matrix;
+    pixel = {converted.x, converted.y, converted.z};
+  }
+}
+
 ImageRgb readWindow(Imf::MultiPartInputFile& file, int part, const Window& data) {
   ImageRgb image(static_cast<int>(data.width), static_cast<int>(data.height));
   const bool color = isColor(file.header(part).channels());
@@ -160,7 +173,9 @@ ImageRgb readWindow(Imf::MultiPartInputFile& file, int part, const Window& data)
   Imf::InputPart input(file, part);
   input.setFrameBuffer(frame);
   input.readPixels(static_cast<int>(data.y), static_cast<int>(data.y + data.height - 1));
-  if (!color) {
+  if (color) {
+    convertToRec709(file.header(part), image);
+  } else {
     for (Vec3& pixel : image) pixel = Vec3(pixel.x);
   }
   return image;

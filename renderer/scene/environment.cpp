@@ -75,15 +75,24 @@ void setEnvironment(Scene& scene, ImageRgb radiance, double scale, double rotati
   if (!std::isfinite(scale) || scale < 0) throw InputError(name, "its scale must be a number that is not negative");
   if (!std::isfinite(rotation)) throw InputError(name, "its rotation must be a number of degrees");
 
-  std::size_t bad = 0;
+  std::size_t notFinite = 0, negative = 0;
   for (Vec3& texel : radiance) {
-    if (!isRadiance(texel)) ++bad;
-    texel = isRadiance(texel) ? scaled(texel, scale, name) : Vec3(0.0f);
+    if (!isFinite(texel)) {
+      ++notFinite;
+      texel = Vec3(0.0f);
+    } else if (!isRadiance(texel)) {  // filters that ring, colors out of Rec. 709
+      ++negative;
+      texel = glm::max(texel, Vec3(0.0f));
+    }
+    texel = scaled(texel, scale, name);
   }
-  if (bad > 0) {
-    scene.warnings.push_back(name + ": " + std::to_string(bad) + (bad == 1 ? " texel is" : " texels are") +
-                             " NaN, infinite or negative and taken as black");
-  }
+  const auto warn = [&](std::size_t count, const std::string& problem) {
+    if (count == 0) return;
+    scene.warnings.push_back(name + ": " + std::to_string(count) + (count == 1 ? " texel is " : " texels are ") +
+                             problem);
+  };
+  warn(notFinite, "NaN or infinite and taken as black");
+  warn(negative, "negative in some channel, which is taken as 0");
   const double turn = std::fmod(rotation, 360.0) * std::numbers::pi / 180;
   scene.environment = Environment{std::move(radiance), static_cast<float>(turn)};
 }

@@ -114,7 +114,8 @@ void addWarnings(const GltfDocument& document, const std::vector<UsedPrimitive>&
   const bool anyTargets =
       std::any_of(used.begin(), used.end(), [](const auto& u) { return !u.primitive->targets.empty(); });
   if (!document.model.skins.empty() || !document.model.animations.empty() || anyTargets) {
-    warnOnce(scene, "skins, animations and morph targets are ignored; the rest pose is shown");
+    warnOnce(scene,
+             "skins, animations and morph targets are ignored: meshes are shown as they are, where their nodes are");
   }
   for (const UsedPrimitive& use : used) {
     if (use.primitive->mode < TINYGLTF_MODE_TRIANGLES || use.primitive->mode > TINYGLTF_MODE_TRIANGLE_FAN) {

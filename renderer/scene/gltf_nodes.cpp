@@ -23,9 +23,13 @@ glm::dmat4 matrixOf(const std::vector<double>& numbers, const std::string& place
   if (numbers.size() != 16) throw InputError(place, "matrix must be 16 numbers; export the file again");
   glm::dmat4 m;
   for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = numbers[static_cast<std::size_t>(i)];
-  if (m[0].w != 0 || m[1].w != 0 || m[2].w != 0 || m[3].w != 1) {
+  // Exporters multiply in float: the last row may be off by its rounding.
+  constexpr double kRounding = 0x1p-20;
+  if (std::max({std::abs(m[0].w), std::abs(m[1].w), std::abs(m[2].w), std::abs(m[3].w - 1)}) > kRounding) {
     throw InputError(place, "matrix is not affine; its last row must be 0 0 0 1");
   }
+  m[0].w = m[1].w = m[2].w = 0;
+  m[3].w = 1;
   return m;
 }
 
@@ -49,13 +53,25 @@ glm::dmat4 localTransform(const GltfDocument& document, std::size_t index) {
   return m;
 }
 
+/// Nodes at the top of the scene that is shown: the default one, else the first, else (a file without scenes) of all.
+std::vector<int> roots(const tinygltf::Model& model) {
+  if (!model.scenes.empty()) return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+  std::vector<bool> isChild(model.nodes.size());
+  for (const tinygltf::Node& node : model.nodes) {
+    for (const int child : node.children) isChild[static_cast<std::size_t>(child)] = true;
+  }
+  std::vector<int> result;
+  for (std::size_t i = 0; i < isChild.size(); ++i) {
+    if (!isChild[i]) result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<GltfNode> activeNodes(const GltfDocument& document) {
   const tinygltf::Model& model = document.model;
   std::vector<GltfNode> nodes;
-  if (model.scenes.empty()) return nodes;
-  const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
   const auto add = [&](int index, const glm::dmat4& parent) {
     const auto node = static_cast<std::size_t>(index);
     const glm::dmat4 world = parent * localTransform(document, node);
@@ -64,7 +80,7 @@ std::vector<GltfNode> activeNodes(const GltfDocument& document) {
     nodes.push_back({node, world});
   };
   // Breadth first, with the result itself as the queue. checkDocument made sure that these are trees.
-  for (const int root : model.scenes[scene].nodes) add(root, glm::dmat4(1));
+  for (const int root : roots(model)) add(root, glm::dmat4(1));
   for (std::size_t next = 0; next < nodes.size(); ++next) {
     const glm::dmat4 world = nodes[next].world;
     for (const int child : model.nodes[nodes[next].index].children) add(child, world);

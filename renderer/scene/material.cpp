@@ -10,12 +10,13 @@ const Material& materialOf(const Scene& scene, const SurfaceCoordinates& at) {
   return scene.materials[indexOf(at.mesh->material)];
 }
 
-/// Value of a vertex attribute at a point.
+/// Value of a vertex attribute at a point. By differences, so that what is the same at all vertices is exactly that in
+/// between: an alpha of the cutoff has no holes.
 template <class Attribute>
 auto interpolate(const Attribute& values, const SurfaceCoordinates& at) {
   const Triangle& t = at.mesh->triangles[at.triangle];
-  const float b0 = 1 - at.barycentric.x - at.barycentric.y;
-  return b0 * values[t.x] + at.barycentric.x * values[t.y] + at.barycentric.y * values[t.z];
+  const auto& first = values[t.x];
+  return first + at.barycentric.x * (values[t.y] - first) + at.barycentric.y * (values[t.z] - first);
 }
 
 bool hasTextures(const Material& material) {

@@ -11,6 +11,7 @@
 #include <list>
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
@@ -18,6 +19,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTileDescription.h>
@@ -103,6 +105,26 @@ TEST(ExrReader, ReadsEveryCompression) {
     addChannels(header, {"R", "G", "B"});
     expectPattern(decodeExr(scanLines(header, {"R", "G", "B"}), "compressed"));
   }
+}
+
+TEST(ExrReader, ConvertsOtherPrimariesToRec709) {
+  Imf::Header header(2, 2);
+  addChannels(header, {"R", "G", "B"});
+  const Imf::Chromaticities rec2020({0.708f, 0.292f}, {0.170f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.3290f});
+  Imf::addChromaticities(header, rec2020);
+  const Vec3 color = decodeExr(scanLines(header, {"R", "G", "B"}), "wide").at(0, 0);
+  const Vec3 stored(pattern(1, 0, 0), pattern(2, 0, 0), pattern(3, 0, 0));
+  // ITU-R BT.2407-0, the matrix of section 2. Half a unit of its four digits times what is stored is 0.03.
+  EXPECT_NEAR(color.x, glm::dot(Vec3(1.6605f, -0.5876f, -0.0728f), stored), 0.03f);
+  EXPECT_NEAR(color.y, glm::dot(Vec3(-0.1246f, 1.1329f, -0.0083f), stored), 0.03f);
+  EXPECT_NEAR(color.z, glm::dot(Vec3(-0.0182f, -0.1006f, 1.1187f), stored), 0.03f);
+}
+
+TEST(ExrReader, RefusesPrimariesThatAreNone) {
+  Imf::Header header(2, 2);
+  addChannels(header, {"R", "G", "B"});
+  Imf::addChromaticities(header, Imf::Chromaticities({0, 0}, {0, 0}, {0, 0}, {0, 0}));
+  EXPECT_THAT(exrRefusal(scanLines(header, {"R", "G", "B"})), HasSubstr("picture"));
 }
 
 TEST(ExrReader, ReadsLossyCompressions) {

@@ -143,14 +143,19 @@ TEST(SetEnvironment, BadTexelsAreBlackAndCountedInOneWarning) {
   ImageRgb image(3, 2, Vec3(1.0f));
   image.at(0, 0).x = kNan;
   image.at(1, 0).y = kInfinity;
-  image.at(2, 1).z = -0.5f;
   Scene scene;
   setEnvironment(scene, image, 2, 0, "sky.exr");
-  EXPECT_THAT(scene.warnings, ElementsAre(testing::AllOf(HasSubstr("sky.exr: 3 texels"), HasSubstr("black"))));
+  EXPECT_THAT(scene.warnings, ElementsAre(testing::AllOf(HasSubstr("sky.exr: 2 texels"), HasSubstr("black"))));
   EXPECT_EQ(scene.environment->radiance.at(0, 0), Vec3(0.0f));
   EXPECT_EQ(scene.environment->radiance.at(1, 0), Vec3(0.0f));
-  EXPECT_EQ(scene.environment->radiance.at(2, 1), Vec3(0.0f));
   EXPECT_EQ(scene.environment->radiance.at(2, 0), Vec3(2.0f));
+}
+
+TEST(SetEnvironment, ANegativeChannelIsTakenAsZeroAndTheOthersStay) {
+  Scene scene;
+  setEnvironment(scene, ImageRgb(2, 1, {10, 5, -0.001f}), 2, 0, "sky.exr");
+  EXPECT_THAT(scene.warnings, ElementsAre(testing::AllOf(HasSubstr("sky.exr: 2 texels"), HasSubstr("negative"))));
+  EXPECT_EQ(scene.environment->radiance.at(0, 0), Vec3(20, 10, 0));
 }
 
 TEST(SetEnvironment, RefusesBadArgumentsAndKeepsTheOldEnvironment) {

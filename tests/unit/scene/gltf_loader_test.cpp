@@ -2,6 +2,7 @@
 #include "renderer/scene/load_scene.h"
 #include "tests/support/bytes.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/support/vectors.h"
 
@@ -350,6 +351,29 @@ TEST_F(GltfLoader, ShowsOnlyTheActiveScene) {
   EXPECT_EQ(load(file).triangleCount(), 1u);
 }
 
+TEST_F(GltfLoader, ShowsAllNodesOfAFileWithoutScenes) {
+  GltfBuilder file;
+  const std::size_t mesh = file.addTriangle();
+  const std::size_t child = file.add("nodes", {{"mesh", mesh}});
+  file.add("nodes", {{"mesh", mesh}, {"translation", {0, 0, 1}}, {"children", {child}}});
+  file.json.erase("scenes");
+  file.json.erase("scene");
+  const Scene scene = load(file);
+  EXPECT_EQ(scene.triangleCount(), 2u) << "each once";
+  EXPECT_EQ(scene.bounds.upper.z - scene.bounds.lower.z, 0) << "the child is placed by its parent";
+}
+
+TEST_F(GltfLoader, ReadsMatricesWhoseLastRowIsRounded) {
+  const auto rowsOf = [](double corner) {
+    return GltfBuilder::Json{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1e-8, 5, 0, 0, corner};
+  };
+  GltfBuilder file;
+  file.addRoot({{"mesh", file.addTriangle()}, {"matrix", rowsOf(0.99999994)}});
+  EXPECT_EQ(load(file).origin.x, 5.5);
+  file.json["nodes"][0]["matrix"] = rowsOf(0.999);
+  EXPECT_THAT(refusalOf([&] { load(file); }), HasSubstr("nodes[0]"));
+}
+
 TEST_F(GltfLoader, PlacesCamerasWithOrthonormalAxesAndNamesOfTheirOwn) {
   GltfBuilder file;
   file.add("cameras", {{"type", "perspective"}, {"name", "lens"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
@@ -380,7 +404,7 @@ TEST_F(GltfLoader, ReadsBuffersAndImagesBesideTheFile) {
   EXPECT_EQ(loadScene(file.writeGltf(folder / "test.gltf")).triangleCount(), 1u);
 }
 
-TEST_F(GltfLoader, SkinsAndAnimationsAreLeftAtRestWithOneWarning) {
+TEST_F(GltfLoader, IgnoresSkinsMorphTargetsAndAnimationsWithOneWarning) {
   GltfBuilder file;
   const std::size_t mesh = file.addTriangle();
   file.addRoot({{"mesh", mesh}, {"skin", 0}});
@@ -388,7 +412,7 @@ TEST_F(GltfLoader, SkinsAndAnimationsAreLeftAtRestWithOneWarning) {
   file.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
   const Scene scene = load(file);
   EXPECT_EQ(scene.triangleCount(), 1u);
-  EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("rest pose")));
+  EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("skins, animations and morph targets are ignored")));
 }
 
 TEST_F(GltfLoader, WarnsOnceOfEachExtensionThatIsUsedAndUnknown) {

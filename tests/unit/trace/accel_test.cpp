@@ -208,6 +208,22 @@ TEST(Accel, MaskIsAllOrNothing) {
   }
 }
 
+TEST(Accel, MaskHasNoHolesWhereTheAlphaOfVerticesIsItsCutoff) {
+  Rng rng(5);
+  for (const float alpha : {1.0f, 0.75f, 0.5f, 0.2f}) {
+    Scene scene;
+    Material mask = lambertian(Vec3(1));
+    mask.alphaMode = AlphaMode::kMask;
+    mask.alphaCutoff = alpha;
+    addQuad(scene, addMaterial(scene, mask), {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+    scene.meshes[0].colors.assign(scene.meshes[0].positions.size(), Vec4(1, 1, 1, alpha));
+    const Accel accel(scene);
+    for (int i = 0; i < 1000; ++i) {
+      EXPECT_TRUE(accel.occluded({{rng.uniform(), rng.uniform(), 0}, {0, 0, 1}}, 0)) << alpha;
+    }
+  }
+}
+
 TEST(Accel, NothingLeaksThroughSharedEdges) {
   // Rays from inside a ball at points of its edges, and at its very vertices.
   for (const float scale : {1e-6f, 1.0f, 1e6f}) {
