@@ -193,6 +193,14 @@ double Lights::flux(LightId light) const {
   return 0;
 }
 
+TriangleEmitter Lights::triangleEmitter(LightId light) const {
+  assert(kind(light) == LightKind::kTriangle);
+  const TriangleLight& triangle = triangles_[indexInKind(light)];
+  const Mesh& mesh = scene_.meshes[indexOf(triangle.mesh)];
+  return {triangleGeometry(mesh, triangle.triangle), triangle.meanRadiance,
+          scene_.materials[indexOf(mesh.material)].doubleSided};
+}
+
 double Lights::irradiance(LightId light, const Vec3& p, const Vec3& n) const {
   const std::size_t i = indexInKind(light);
   const auto fromPosition = [&](const Vec3& position, const Vec3& intensity) {
@@ -210,13 +218,8 @@ double Lights::irradiance(LightId light, const Vec3& p, const Vec3& n) const {
       if (!(distance > 0)) return 0;
       return fromPosition(spot.position, spot.intensity) * spotFalloff(spot, glm::dot(d / distance, spot.axis));
     }
-    case LightKind::kTriangle: {
-      const Mesh& mesh = scene_.meshes[indexOf(triangles_[i].mesh)];
-      const TriangleGeometry triangle = triangleGeometry(mesh, triangles_[i].triangle);
-      const float side = glm::dot(p - triangle.corners[0], triangle.normal);
-      if (side == 0 || (side < 0 && !scene_.materials[indexOf(mesh.material)].doubleSided)) return 0;
-      return triangles_[i].meanRadiance * triangleFormFactor(triangle, p, n);
-    }
+    case LightKind::kTriangle:
+      return triangleEmitter(light).irradiance(p, n);
     case LightKind::kDirectional: {
       const DirectionalLight& directional = scene_.directionalLights[i];
       return scalarEmission(directional.irradiance) * cosineAt(n, -glm::dvec3(directional.axis));

@@ -83,6 +83,8 @@ class Lights {
   /// lights and for triangles of uniform radiance (the mean is taken), a bound for tiles. > 0 wherever the light can
   /// contribute.
   double irradiance(LightId light, const Vec3& p, const Vec3& n) const;
+  /// The same of one triangle light, W/m², to be asked many times. \pre the light is a triangle
+  TriangleEmitter triangleEmitter(LightId light) const;
 
   const Scene& scene() const { return scene_; }
   const std::vector<TriangleLight>& triangles() const { return triangles_; }

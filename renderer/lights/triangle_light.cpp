@@ -136,6 +136,12 @@ double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const
   return std::min(0.5 * std::abs(sum), std::numbers::pi);
 }
 
+double TriangleEmitter::irradiance(const Vec3& p, const Vec3& n) const {
+  const float side = glm::dot(p - geometry.corners[0], geometry.normal);
+  if (side == 0 || (side < 0 && !doubleSided)) return 0;
+  return meanRadiance * triangleFormFactor(geometry, p, n);
+}
+
 namespace {
 
 /// Scalar emission times coverage, averaged over a triangle; > 0 wherever some point of it emits.

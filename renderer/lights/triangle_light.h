@@ -50,4 +50,15 @@ float trianglePdf(const TriangleGeometry& triangle, const Vec3& p, const Vec3& q
 /// π]. Source: Lambert's polygon formula (Baum et al. 1989), after clipping. In double.
 double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const Vec3& n);
 
+/// What the irradiance from a triangle light is made of, without the scene.
+struct TriangleEmitter {
+  TriangleGeometry geometry;
+  double meanRadiance;  ///< scalar emission, in any unit
+  bool doubleSided;
+
+  /// Unoccluded irradiance at a point with unit normal n, in the unit of meanRadiance · sr: exact where the radiance is
+  /// uniform.
+  double irradiance(const Vec3& p, const Vec3& n) const;
+};
+
 }  // namespace cellcut

@@ -236,7 +236,9 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
     addNear(treeOf(c).node(c.node), row);
     if (isLarge[i]) {
       near_.field(kIntensity)[row] = 0;
-      largeLights_.push_back({static_cast<std::uint32_t>(row), trees.local.light(trees.local.firstLeaf(c.node))});
+      TriangleEmitter emitter = trees.lights.triangleEmitter(trees.local.light(trees.local.firstLeaf(c.node)));
+      emitter.meanRadiance = std::ldexp(emitter.meanRadiance, -trees.exponent);
+      largeLights_.push_back({static_cast<std::uint32_t>(row), emitter});
     }
     addMember(c);
   }

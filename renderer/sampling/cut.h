@@ -31,10 +31,6 @@ struct LightTrees {
   LightId firstDistant;  ///< lights from this number on are distant
   int exponent;          ///< intensities and estimates are in units of 2^exponent W/sr and W/m²
 
-  /// Lights::irradiance in the trees' unit.
-  double irradiance(LightId light, const Vec3& p, const Vec3& n) const {
-    return std::ldexp(lights.irradiance(light, p, n), -exponent);
-  }
   const LightTree& of(bool isDistant) const { return kCanHaveDistantLights && isDistant ? distant : local; }
   TreeStatistics statistics() const;
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
@@ -115,8 +111,8 @@ class Cut {
   /// A light so large for its distance that the bounds of its cluster say little: a few of them. Its row of near() has no
   /// weight.
   struct LargeLight {
-    std::uint32_t near;  ///< its row
-    LightId light;
+    std::uint32_t near;       ///< its row
+    TriangleEmitter emitter;  ///< in the trees' unit: only triangles have a size
   };
   const std::vector<LargeLight>& largeLights() const { return largeLights_; }
 

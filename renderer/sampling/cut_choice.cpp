@@ -14,11 +14,11 @@ struct NearWeights {
   std::array<float, static_cast<std::size_t>(kMaxCutSize) / kClusterBlock + 1> blockSum;
   double sum = 0;
 
-  NearWeights(const LightTrees& trees, const Cut& cut, const ShadingPoint& point) {
+  NearWeights(const Cut& cut, const ShadingPoint& point) {
     assert(cut.near().size() <= static_cast<std::size_t>(kMaxCutSize));
     if (cut.near().size() > 0) sum = nearWeights(cut.near(), point.p, point.n, weight.data(), blockSum.data());
     for (const Cut::LargeLight& large : cut.largeLights()) {
-      const double exact = std::min<double>(trees.irradiance(large.light, point.p, point.n), kMaxWeight);
+      const double exact = std::min<double>(large.emitter.irradiance(point.p, point.n), kMaxWeight);
       // What is too little for a float is not nothing.
       weight[large.near] = exact > 0 ? std::max(static_cast<float>(exact), std::numeric_limits<float>::min()) : 0.0f;
       blockSum[large.near / kClusterBlock] += weight[large.near];
@@ -59,8 +59,7 @@ struct CutWeights {
   NearWeights near;
   double toDistant = 0, toFar = 0, toNear = 0;  ///< probability of each kind; toFar: of local ones; all 0: no choice
 
-  CutWeights(const LightTrees& trees, const Cut& cut, const FarChoice& far, const ShadingPoint& point)
-      : near(trees, cut, point) {
+  CutWeights(const Cut& cut, const FarChoice& far, const ShadingPoint& point) : near(cut, point) {
     const double local = far.local().sum + near.sum, distant = far.distant().sum;
     if (!(local + distant > 0)) return;
     toDistant = distantShare(local, distant);
@@ -96,7 +95,7 @@ class CutChoice {
         far_(far),
         inCluster_(inCluster),
         point_(point),
-        weights_(trees, cut, far, point),
+        weights_(cut, far, point),
         mirrored_(trees, point) {}
 
   std::optional<SampledLight> sample(double u) const {
@@ -204,10 +203,9 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, In
   return CutChoice(trees, cut, far, inCluster, point).pmf(light);
 }
 
-std::vector<double> clusterPmfs(const LightTrees& trees, const Cut& cut, const FarChoice& far,
-                                const ShadingPoint& point) {
+std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point) {
   std::vector<double> pmfs(cut.size());
-  const CutWeights w(trees, cut, far, point);
+  const CutWeights w(cut, far, point);
   for (std::size_t i = 0; i < pmfs.size(); ++i) pmfs[i] = w.pmf(cut, far, i);
   return pmfs;
 }

@@ -19,7 +19,6 @@ float pmfInCut(const LightTrees& trees, const Cut& cut, const FarChoice& far, In
 /// Probability that a choice by the cut goes into each cluster, in the order of cut.members(): of sampleCut() where no
 /// sample follows a mirror. Their sum is 1, or all are 0 where nothing is chosen. With InCluster::kDescent less than
 /// that comes out again as lights of the cluster.
-std::vector<double> clusterPmfs(const LightTrees& trees, const Cut& cut, const FarChoice& far,
-                                const ShadingPoint& point);
+std::vector<double> clusterPmfs(const Cut& cut, const FarChoice& far, const ShadingPoint& point);
 
 }  // namespace cellcut

@@ -62,8 +62,8 @@ CutSummary CutInspector::summaryOfCell(const CellCoordinates& cell) const {
 std::vector<ClusterInspection> CutInspector::clusters(const Cut& cut, const ShadingPoint& point) const {
   const std::size_t facing = facingOf(point.n);
   const FarChoice* kept = cut.farCount() > 0 ? cut.farChoice(facing) : nullptr;
-  const std::vector<double> pmfs = kept ? clusterPmfs(*strategy_.trees, cut, *kept, point)
-                                        : clusterPmfs(*strategy_.trees, cut, cut.makeFarChoice(facing), point);
+  const std::vector<double> pmfs =
+      kept ? clusterPmfs(cut, *kept, point) : clusterPmfs(cut, cut.makeFarChoice(facing), point);
   std::vector<ClusterInspection> clusters;
   clusters.reserve(cut.size());
   for (std::size_t i = 0; i < cut.size(); ++i) {
