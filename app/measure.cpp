@@ -21,7 +21,6 @@
 #include <cmath>
 #include <iomanip>
 #include <memory>
-#include <set>
 #include <sstream>
 
 #include <CLI/CLI.hpp>

@@ -22,6 +22,7 @@ std::string describe(RealRange range) {
   if (range.least == std::numeric_limits<double>::lowest()) return "a finite number";
   std::ostringstream text;
   text << (range.leastExcluded ? "a number above " : "a number of at least ") << range.least;
+  if (range.most < std::numeric_limits<double>::max()) text << " and at most " << range.most;
   return text.str();
 }
 

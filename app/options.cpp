@@ -151,7 +151,8 @@ void addCuts(CLI::App& verb, RenderOptions& o, bool autoQuality) {
       verb, o, "--grid-resolution", "R",
       "Cells along the longest axis of what is seen (default " + std::to_string(defaults.gridResolution) + ")",
       [](SamplerSettings& s, const std::string& t) { s.gridResolution = parseGridResolution("--grid-resolution", t); });
-  addExplicit(verb, o, "--in-cluster", "intensity|descent", "How a light is chosen inside a cluster (default descent)",
+  addExplicit(verb, o, "--in-cluster", "intensity|descent",
+              "How a light is chosen inside a cluster (default " + std::string(nameOf(defaults.inCluster)) + ")",
               [](SamplerSettings& s, const std::string& t) { s.inCluster = parseInCluster("--in-cluster", t); });
   addExplicit(verb, o, "--cell-memory", "MB",
               "Kept cuts; beyond it the same are found again, slower (default " +
@@ -180,7 +181,7 @@ void addLoadLimits(CLI::App& verb, LoadLimits& limits) {
 
 namespace {
 
-void addView(CLI::App& verb, RenderOptions& o) {
+void addSceneOptions(CLI::App& verb, RenderOptions& o) {
   addText(
       verb, "--camera", "NAME|INDEX", [&o](const std::string& t) { o.camera = t; },
       "A camera of the scene by its name or its number from 0 (default 0)");
@@ -249,7 +250,7 @@ namespace {
 void addSettings(CLI::App& verb, RenderOptions& options, bool autoQuality) {
   addSampling(verb, options.settings);
   addCuts(verb, options, autoQuality);
-  addView(verb, options);
+  addSceneOptions(verb, options);
 }
 
 void addPicture(CLI::App& verb, RenderOptions& options, bool autoQuality) {

@@ -42,11 +42,11 @@ Output checkedOutput(const std::filesystem::path& file);
 /// \throws std::runtime_error if the file cannot be written; the old file then stays
 void writePicture(const Output& output, const Film& film, std::map<std::string, std::string> metadata);
 
-/// Whether files can be made in a folder that exists.
-bool isWritable(const std::filesystem::path& folder);
-
 /// The same of a picture alone: an EXR has one layer then.
 void writePicture(const Output& output, const ImageRgb& picture, std::map<std::string, std::string> metadata = {});
+
+/// Whether files can be made in a folder that exists.
+bool isWritable(const std::filesystem::path& folder);
 
 /// \throws std::runtime_error if the file cannot be written; the old file then stays
 void writeBytes(const std::filesystem::path& file, std::span<const std::byte> bytes);

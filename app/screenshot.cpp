@@ -9,7 +9,6 @@
 #include "renderer/base/error.h"
 
 #include <array>
-#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>

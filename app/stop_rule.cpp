@@ -1,7 +1,6 @@
 #include "app/stop_rule.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cellcut {
 
@@ -32,7 +31,7 @@ double doneShare(const StopRule& rule, const RenderState& state) {
       break;
     case StopRule::Kind::kNoise: {
       const double ratio = rule.noise / state.relativeError;
-      share = needsNoise(rule, state.passes) && state.relativeError > 0 ? ratio * ratio : 0;
+      if (needsNoise(rule, state.passes)) share = isReached(rule, state) ? 1 : ratio * ratio;
       break;
     }
   }

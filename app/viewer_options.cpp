@@ -5,6 +5,7 @@
 #include "renderer/scene/recipes/recipe.h"
 
 #include <array>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 

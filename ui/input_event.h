@@ -6,6 +6,7 @@
 
 #include "renderer/base/math.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -38,6 +39,8 @@ bool equalIgnoringCase(std::string_view a, std::string_view b);
 
 enum class MouseButton : std::uint8_t { kLeft, kRight, kMiddle };
 inline constexpr int kMouseButtonCount = 3;
+/// As scripts call them.
+inline constexpr std::array<std::string_view, kMouseButtonCount> kMouseButtonNames{"left", "right", "middle"};
 
 struct MouseMove {
   Vec2 position{0};

@@ -10,7 +10,6 @@
 #include "renderer/scene/gltf_container.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <sys/utsname.h>
 #include <thread>

@@ -8,7 +8,6 @@
 #include "renderer/base/image_codecs.h"
 
 #include <algorithm>
-#include <limits>
 #include <new>
 
 #include <OpenEXR/IexBaseExc.h>

@@ -39,8 +39,8 @@ struct LayeredImage {
 };
 
 /// Reads linear RGB from .exr (the layer without a name, as 32-bit float; luminance-only files become grey; the display
-/// window, black where there is no data), .pfm or .hdr. The numbers are taken as Rec. 709, whatever primaries a file
-/// names.
+/// window, black where there is no data), .pfm or .hdr. Rec. 709: converted from an EXR's primaries without adapting the
+/// white point; other files are taken as that.
 /// \param maxBytes  of the picture, decoded: less than what any may have only where --max-texture-bytes says so
 /// \throws InputError if the file cannot be read, is damaged, has no RGB or Y, or is larger than maxBytes or
 /// kMaxImagePixels.

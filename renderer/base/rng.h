@@ -2,7 +2,6 @@
 /// Random numbers that are a function of where they are used, never of which thread asks first.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 namespace cellcut {

@@ -1,6 +1,5 @@
 #include "renderer/lights/leaf_sums.h"
 
-#include <algorithm>
 #include <numeric>
 
 namespace cellcut {

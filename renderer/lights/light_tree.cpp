@@ -4,7 +4,6 @@
 #include "renderer/base/rng.h"
 
 #include <array>
-#include <numeric>
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>

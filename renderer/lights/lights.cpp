@@ -43,9 +43,7 @@ std::optional<LightSample> sampleTriangleLight(const Scene& scene, const Triangl
   const Mesh& mesh = scene.meshes[indexOf(light.mesh)];
   const Material& material = scene.materials[indexOf(mesh.material)];
   const TriangleGeometry triangle = triangleGeometry(mesh, light.triangle);
-  // The side is decided once, from the nearest corner's plane distance in the arithmetic that a hit uses too.
-  const float side = glm::dot(p - triangle.corners[0], triangle.normal);
-  if (side == 0 || (side < 0 && !material.doubleSided)) return std::nullopt;
+  if (!emitsTowards(triangle, material.doubleSided, p)) return std::nullopt;
   const std::optional<TrianglePoint> point = sampleTriangle(triangle, p, u);
   if (!point) return std::nullopt;
 

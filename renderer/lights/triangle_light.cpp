@@ -111,6 +111,11 @@ float trianglePdf(const TriangleGeometry& triangle, const Vec3& p, const Vec3& q
   return areaPdf(triangle, p, q);
 }
 
+bool emitsTowards(const TriangleGeometry& triangle, bool doubleSided, const Vec3& p) {
+  const float side = glm::dot(p - triangle.corners[0], triangle.normal);
+  return side > 0 || (side < 0 && doubleSided);
+}
+
 double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const Vec3& n) {
   using DVec3 = glm::dvec3;
   // Clip to the horizon: a triangle becomes a polygon of at most four corners.
@@ -137,9 +142,7 @@ double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const
 }
 
 double TriangleEmitter::irradiance(const Vec3& p, const Vec3& n) const {
-  const float side = glm::dot(p - geometry.corners[0], geometry.normal);
-  if (side == 0 || (side < 0 && !doubleSided)) return 0;
-  return meanRadiance * triangleFormFactor(geometry, p, n);
+  return emitsTowards(geometry, doubleSided, p) ? meanRadiance * triangleFormFactor(geometry, p, n) : 0.0;
 }
 
 namespace {

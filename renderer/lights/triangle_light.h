@@ -46,6 +46,10 @@ std::optional<TrianglePoint> sampleTriangle(const TriangleGeometry& triangle, co
 /// Density of sampleTriangle at point `q` of the triangle; 0 where it samples nothing.
 float trianglePdf(const TriangleGeometry& triangle, const Vec3& p, const Vec3& q);
 
+/// Whether a triangle light sends anything to the side of its plane that p is on. From the distance of a corner to the
+/// plane, in the arithmetic that a hit uses too: sampling and importance must not decide differently.
+bool emitsTowards(const TriangleGeometry& triangle, bool doubleSided, const Vec3& p);
+
 /// ∫ cosθ dω over the part of the triangle above the horizon of normal n at p, from either side of the triangle, [0,
 /// π]. Source: Lambert's polygon formula (Baum et al. 1989), after clipping. In double.
 double triangleFormFactor(const TriangleGeometry& triangle, const Vec3& p, const Vec3& n);

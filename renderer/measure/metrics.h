@@ -24,14 +24,14 @@ struct ImageComparison {
 /// \pre the pictures have the same size and are not empty
 ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b);
 
+/// The same beside a rendering: it takes no threads from it.
+/// \param withFlip  both kinds of FLIP take longer than all the rest; without, they are NaN
+ImageComparison compareImagesOnThisThread(const ImageRgb& a, const ImageRgb& b, bool withFlip);
+
 /// Estimate of the reference's own relMSE from two unbiased pictures of the same with noise that is independent of each
 /// other's and of the reference's: mean of (A − R)(B − R) / (R² + ε), in which only the error that both comparisons
 /// share, the reference's, does not average out. May come out negative where that is small.
 /// \pre as compareImages
 double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference);
-
-/// The same beside a rendering: it takes no threads from it.
-/// \param withFlip  both kinds of FLIP take longer than all the rest; without, they are NaN
-ImageComparison compareImagesOnThisThread(const ImageRgb& a, const ImageRgb& b, bool withFlip);
 
 }  // namespace cellcut

@@ -2,7 +2,6 @@
 
 #include "renderer/base/rng.h"
 
-#include <array>
 #include <bit>
 
 namespace cellcut {

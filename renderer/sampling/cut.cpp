@@ -116,7 +116,7 @@ class CutSearch {
   }
 
   void add(bool distant, NodeId node) {
-    const LightTree& tree = distant ? trees_.distant : trees_.local;
+    const LightTree& tree = trees_.of(distant);
     const std::optional<Cluster> cluster =
         distant ? std::optional(distantCluster(tree, node)) : localCluster(tree, node, region_);
     if (!cluster) return;
@@ -198,9 +198,8 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
     return !c.distant && (few || region.radius == 0 || region.radius > kNearShare * c.meanDistance || isLarge[i]);
   };
   const auto localLeaves = static_cast<std::uint32_t>(trees.local.leafCount());
-  const auto treeOf = [&](const Cluster& c) -> const LightTree& { return c.distant ? trees.distant : trees.local; };
   const auto addMember = [&](const Cluster& c) {
-    const LightTree& tree = treeOf(c);
+    const LightTree& tree = trees.of(c.distant);
     // The mask says to the compiler that it fits.
     members_.push_back({c.node, c.distant, tree.node(c.node).leafCount() & 0x7fffffffu,
                         tree.firstLeaf(c.node) + (c.distant ? localLeaves : 0), c.estimate});
@@ -233,7 +232,7 @@ Cut::Cut(const LightTrees& trees, const Region& region, const std::vector<Cluste
     if (!isNear(i)) continue;
     const Cluster& c = clusters[i];
     const std::size_t row = members_.size() - far_.size();
-    addNear(treeOf(c).node(c.node), row);
+    addNear(trees.local.node(c.node), row);
     if (isLarge[i]) {
       near_.field(kIntensity)[row] = 0;
       TriangleEmitter emitter = trees.lights.triangleEmitter(trees.local.light(trees.local.firstLeaf(c.node)));

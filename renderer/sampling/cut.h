@@ -33,7 +33,6 @@ struct LightTrees {
 
   const LightTree& of(bool isDistant) const { return kCanHaveDistantLights && isDistant ? distant : local; }
   TreeStatistics statistics() const;
-  std::uint32_t leafCount() const { return static_cast<std::uint32_t>(local.leafCount() + distant.leafCount()); }
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }
 
  private:

@@ -19,7 +19,7 @@ std::optional<CutInspector> CutInspector::of(const LightSampler& sampler) {
 }
 
 const LightTree& CutInspector::tree(bool distant) const {
-  return distant ? strategy_.trees->distant : strategy_.trees->local;
+  return strategy_.trees->of(distant);
 }
 
 std::optional<CellCoordinates> CutInspector::cellOf(const Vec3& p, bool indirect) const {

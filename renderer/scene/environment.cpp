@@ -27,10 +27,6 @@ Neighbours neighbours(float coordinate, int size) {
   return {static_cast<int>(floor), static_cast<int>(floor) + 1, texel - floor};
 }
 
-bool isRadiance(const Vec3& texel) {
-  return isFinite(texel) && texel.x >= 0 && texel.y >= 0 && texel.z >= 0;
-}
-
 Vec3 scaled(const Vec3& texel, double scale, const std::string& name) {
   const glm::dvec3 product = scale * glm::dvec3(texel);
   if (std::max({product.x, product.y, product.z}) > std::numeric_limits<float>::max()) {
@@ -80,7 +76,7 @@ void setEnvironment(Scene& scene, ImageRgb radiance, double scale, double rotati
     if (!isFinite(texel)) {
       ++notFinite;
       texel = Vec3(0.0f);
-    } else if (!isRadiance(texel)) {  // filters that ring, colors out of Rec. 709
+    } else if (texel.x < 0 || texel.y < 0 || texel.z < 0) {  // filters that ring, colors out of Rec. 709
       ++negative;
       texel = glm::max(texel, Vec3(0.0f));
     }

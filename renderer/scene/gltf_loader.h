@@ -3,7 +3,7 @@
 ///
 /// Extensions: KHR_mesh_quantization, KHR_texture_transform, KHR_materials_emissive_strength, _specular, _ior, _unlit,
 /// KHR_lights_punctual, and CELLCUT_environment: root-level {"bufferView": i}, the bytes of a lat-long EXR or HDR.
-/// Skins, animations and morph targets are left at rest. Source: glTF 2.0, Khronos 2021.
+/// Skins, animations and morph targets are ignored. Source: glTF 2.0, Khronos 2021.
 #pragma once
 
 #include "renderer/scene/load_scene.h"

@@ -15,7 +15,7 @@ struct GltfNode {
   glm::dmat4 world;  ///< node → file coordinates, metres; finite
 };
 
-/// All nodes below the active scene's roots (`scene`, else the first; none if the file has no scene), parents before
+/// All nodes below the active scene's roots (`scene`, else the first, else all nodes without a parent), parents before
 /// children. Takes time and memory linear in the nodes, however deep.
 /// \throws InputError if a transform is broken or not finite
 std::vector<GltfNode> activeNodes(const GltfDocument& document);

@@ -14,8 +14,8 @@ namespace cellcut {
 /// \throws InputError naming file, place and remedy; nothing else
 Scene loadScene(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// Puts a lat-long picture around the scene, in place of any that it has. NaN, Inf and negative texels become 0 and are
-/// warned about.
+/// Puts a lat-long picture around the scene, in place of any that it has. Texels that are NaN or infinite and
+/// negative channels become 0 and are warned about.
 /// \param scale     multiplies every texel
 /// \param rotation  degrees about +Y, counter-clockwise seen from above
 /// \param name      of the picture, for messages

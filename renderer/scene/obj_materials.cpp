@@ -78,8 +78,8 @@ Vec3 colorOf(const tinyobj::real_t (&c)[3]) {
   return {clamped(c[0], 0, 1), clamped(c[1], 0, 1), clamped(c[2], 0, 1)};
 }
 
-/// GGX alpha with the lobe of a Blinn-Phong exponent: α² = 2 / (Ns + 2). Source: Walter et al. 2007, section 5.2. A mirror
-/// for an exponent that is infinite; NaN becomes 0.
+/// Roughness √α, α of the GGX lobe like that of a Blinn-Phong exponent: α² = 2 / (Ns + 2). Source: Walter et al. 2007,
+/// section 5.2. A mirror for an exponent that is infinite; NaN becomes 0.
 float roughnessOf(double exponent) {
   const double alphaSquared = 2 / (std::max(0.0, exponent) + 2);
   return static_cast<float>(std::sqrt(std::sqrt(alphaSquared)));

@@ -1,7 +1,6 @@
 #include "renderer/scene/triangulate.h"
 
 #include <cassert>
-#include <cmath>
 #include <numeric>
 
 #include <glm/geometric.hpp>

@@ -11,7 +11,7 @@
 
 namespace cellcut {
 
-/// What the size of the film does not change: a smaller film gets the same view with fewer pixels.
+/// Renders the passes of one view into a film of any size: a smaller one gets the same view with fewer pixels.
 ///
 /// A pass is startPass(); renderTile() once for every tile, in any order; and, unless it was cancelled, the film's
 /// commit and keepCounts(). A pass that was not kept leaves no trace. The film is bit for bit the same for any order of
@@ -32,7 +32,7 @@ class PassRenderer {
 
   /// Of all passes that were kept.
   RayCounts rays() const { return rays_; }
-  /// Light samples that had to be given up, all kept passes: the shading point coincides with a point light.
+  /// Light samples that had to be given up, all kept passes: the shading point coincides with a point or spot light.
   std::uint64_t droppedSamples() const { return dropped_; }
 
  private:

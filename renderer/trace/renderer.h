@@ -44,7 +44,7 @@ class Renderer {
   LightCounts lightCounts() const;
   /// Of all committed passes.
   RayCounts rays() const;
-  /// Light samples that had to be given up, all committed passes: the shading point coincides with a point light.
+  /// Light samples that had to be given up, all committed passes: the shading point coincides with a point or spot light.
   std::uint64_t droppedSamples() const;
   MemoryUse memory() const;
   SamplerStatistics samplerStatistics() const;

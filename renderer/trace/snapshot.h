@@ -26,7 +26,7 @@ struct Snapshot {
   std::uint64_t passes = 0;  ///< samples per pixel
   double seconds = 0;        ///< of rendering these passes
   RayCounts rays;
-  std::uint64_t droppedSamples = 0;  ///< a shading point coincides with a point light
+  std::uint64_t droppedSamples = 0;  ///< a shading point coincides with a point or spot light
   BadSamples bad;
   /// The last look of a NoiseWatch, which the input asks for; infinite before the first.
   NoiseEstimate noise{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};

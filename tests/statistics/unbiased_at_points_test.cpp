@@ -11,11 +11,13 @@ namespace {
 /// Fewer hits than this, and a mean over its own standard error is no normal variable.
 constexpr std::uint64_t kMinHits = 1000;
 
-/// z-tests of one family of points: each alone, and the sum of their squares.
+/// Tests of one name: any change of the sampler draws anew in each.
+constexpr std::size_t kTestsOfAName = kSamplerVariants.size() * kLightMixes.size();
+
+/// z-tests of one family of points: each alone, and the sum of their squares, at limits of all tests of one name.
 class PointTests {
  public:
-  /// Over all points of all tests of one name: any change of the sampler draws anew in each.
-  explicit PointTests(std::size_t points) : limit_(criticalZ(points * kSamplerVariants.size() * kLightMixes.size())) {}
+  explicit PointTests(std::size_t points) : limit_(criticalZ(points * kTestsOfAName)) {}
 
   void add(const Moments& estimate, double reference) {
     if (reference == 0) {
@@ -35,7 +37,8 @@ class PointTests {
       EXPECT_GE(count_, atLeast) << "points with enough hits";
     }
     if (count_ == 0) return;
-    EXPECT_GT(chiSquareTail(sum_, static_cast<double>(count_)), 1e-3) << "sum of squares " << sum_ << " of " << count_;
+    EXPECT_GT(chiSquareTail(sum_, static_cast<double>(count_)), sidak(kAlpha, kTestsOfAName))
+        << "sum of squares " << sum_ << " of " << count_;
   }
 
  private:

@@ -256,6 +256,8 @@ TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
   EXPECT_THAT(refusalOf("click \"Max\n"), HasSubstr("a quote has no end"));
   EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
   EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
+  EXPECT_THAT(refusalOf("drag rihgt 1 1 5 5\n"), HasSubstr("'rihgt' is none of left, right, middle"));
+  EXPECT_THAT(refusalOf("view 1 1 1 0 0 1 0 1 0 1 1 wide\n"), HasSubstr("'wide' is neither"));
 }
 
 TEST_F(ViewerTest, WaitingForSamplesThatCannotComeFails) {
@@ -419,6 +421,12 @@ TEST_F(ViewerTest, LimitsPauseAndStep) {
   EXPECT_LT(viewer_->session().snapshot()->noise.bound, 0.5);
   play("set \"Stop at REL\" 0\nset \"Stop at s\" 1\nwait idle\nexpect ETA done\n");
   EXPECT_GE(viewer_->session().snapshot()->seconds, 1);
+}
+
+TEST_F(ViewerTest, LessThanOnePassIsNoLimit) {
+  play("set \"Stop at s\" 0.1\nset \"Stop at spp\" 0.5\nwait idle\n");
+  EXPECT_GE(viewer_->session().snapshot()->passes, 1u);
+  EXPECT_FALSE(viewer_->state().passLimit);
 }
 
 TEST_F(ViewerTest, TheRelativeErrorIsShownWithoutALimitOnIt) {

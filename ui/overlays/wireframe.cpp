@@ -1,9 +1,7 @@
 #include "ui/overlays/wireframe.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <optional>
 #include <tuple>
 
 namespace cellcut {

@@ -2,6 +2,9 @@
 #include "ui/viewer/panel_parts.h"
 #include "ui/viewer/panels.h"
 
+#include <cmath>
+#include <type_traits>
+
 namespace cellcut {
 namespace {
 
@@ -38,6 +41,8 @@ template <class T>
 void limitField(Widgets& widgets, const char* label, std::optional<T>& limit, const char* tooltip) {
   double value = limit ? static_cast<double>(*limit) : 0;
   if (!widgets.number(label, value, tooltip)) return;
+  if constexpr (std::is_integral_v<T>)
+    value = std::min(std::floor(value), 1e15);  // more than anyone waits for, and fits
   limit = value > 0 ? std::optional(static_cast<T>(value)) : std::nullopt;
 }
 

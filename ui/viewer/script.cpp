@@ -257,10 +257,9 @@ void ScriptPlayer::set(const ScriptAction& action, Stage& stage) const {
 }
 
 void ScriptPlayer::drag(const ScriptAction& action, Stage& stage) const {
-  const std::string& name = action.words[1];
-  const MouseButton button = name == "right"    ? MouseButton::kRight
-                             : name == "middle" ? MouseButton::kMiddle
-                                                : MouseButton::kLeft;
+  const auto name = std::find(kMouseButtonNames.begin(), kMouseButtonNames.end(), action.words[1]);
+  if (name == kMouseButtonNames.end()) fail(action, "'" + action.words[1] + "' is none of left, right, middle");
+  const auto button = static_cast<MouseButton>(name - kMouseButtonNames.begin());
   const Vec2 from = position(action, 2), to = position(action, 4);
   stage.window.post(MouseMove{from});
   frames(stage, 1);
@@ -285,7 +284,11 @@ void ScriptPlayer::paste(const ScriptAction& action, Stage& stage) const {
   pose.camera.up = vector(7);
   pose.camera.halfHeight = number(action, 10);
   pose.focus = number(action, 11);
-  pose.camera.orthographic = action.words[12] == "orthographic";
+  const std::string& projection = action.words[12];
+  pose.camera.orthographic = projection == "orthographic";
+  if (!pose.camera.orthographic && projection != "perspective") {
+    fail(action, "'" + projection + "' is neither perspective nor orthographic");
+  }
   stage.window.setClipboard(poseToJson(pose));
   press(stage, "Ctrl+V");
 }

@@ -23,7 +23,6 @@
 
 #include "ui/viewer/viewer.h"
 
-#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>

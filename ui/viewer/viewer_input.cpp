@@ -24,8 +24,6 @@ Vec2 mousePosition() {
 /// Share of the grid that [ and ] move the slice by: less than a layer of the default 16 cells.
 constexpr float kSliceStep = 0.05f;
 
-/// In the order of MouseButton and of ImGui.
-constexpr std::array<const char*, kMouseButtonCount> kButtons{"left", "right", "middle"};
 /// Space flies too.
 constexpr std::string_view kFlightKeys = "WASDQEC";
 
@@ -198,8 +196,8 @@ void Viewer::readMouse() {
     }
     if (ImGui::IsMouseDown(button)) continue;
     if (drag.moved) {
-      record({"drag", kButtons[static_cast<std::size_t>(button)], exactNumber(drag.start.x), exactNumber(drag.start.y),
-              exactNumber(position.x), exactNumber(position.y)});
+      record({"drag", std::string(kMouseButtonNames[static_cast<std::size_t>(button)]), exactNumber(drag.start.x),
+              exactNumber(drag.start.y), exactNumber(position.x), exactNumber(position.y)});
     } else if (button == ImGuiMouseButton_Left) {
       const std::optional<glm::ivec2> pixel = imagePixelAt(placement_, {snapshot_->width, snapshot_->height}, position);
       if (pixel) {

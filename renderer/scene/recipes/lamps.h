@@ -15,7 +15,8 @@ struct Glow {
   float flux = 1;  ///< W, of the whole lamp
 };
 
-/// Luminance of a diffuse emitter.
+/// Radiance of a diffuse emitter.
+/// \param flux W
 /// \param area m²
 /// \return W/(m² sr)
 inline float radianceOf(float flux, float area) {

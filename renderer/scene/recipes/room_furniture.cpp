@@ -2,7 +2,6 @@
 #include "renderer/scene/recipes/room_interior.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cellcut {
 

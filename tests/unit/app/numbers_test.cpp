@@ -45,6 +45,12 @@ TEST(Numbers, RefusalNamesOptionTextAndRange) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "--time: '0' is not a number above 0");
   }
+  try {
+    parseReal("--threshold", "2", {.least = 0, .most = 1});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "--threshold: '2' is not a number of at least 0 and at most 1");
+  }
 }
 
 TEST(Numbers, RealNumbersMayBeScientific) {
