@@ -77,8 +77,8 @@ void addStopRule(CLI::App& verb, std::optional<StopRule>& stop) {
   const auto noise = [&stop](const std::string& t) {
     stop = {.kind = StopRule::Kind::kNoise, .noise = parseReal("--noise", t, {.least = 0, .leastExcluded = true})};
   };
-  CLI::Option* sppOption =
-      addText(verb, "--spp", "N", spp, "Stop after N samples per pixel (default 64; the viewer goes on)");
+  CLI::Option* sppOption = addText(verb, "--spp", "N", spp,
+                                   "Stop after N samples per pixel (default 64, screenshot 16; the viewer goes on)");
   CLI::Option* timeOption =
       addText(verb, "--time", "SECONDS", time, "Stop at the end of the pass in which SECONDS of rendering run out");
   CLI::Option* noiseOption =

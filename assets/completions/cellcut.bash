@@ -50,7 +50,10 @@ _cellcut_measure() {
     -o | --output) COMPREPLY+=($(compgen -d -- "$cur")) ;;
     --strategies) _cellcut_words "$_cellcut_strategies" ;;
     --reference) _cellcut_files 'exr|pfm|hdr' ;;
-    --sweep) _cellcut_words 'quality= threshold= max-cut= grid-resolution= in-cluster= max-depth=' ;;
+    --sweep)
+      compopt -o nospace 2>/dev/null # the values follow
+      _cellcut_words 'quality= threshold= max-cut= grid-resolution= in-cluster= max-depth='
+      ;;
     --lights | --runs | --reference-spp) ;;
     measure) _cellcut_words 'rooms street hall kinds' && _cellcut_files 'gltf|glb|obj' ;;
     *) _cellcut_picture_value ||
