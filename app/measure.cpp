@@ -68,6 +68,11 @@ struct Work {
   MeasureResults results;
 
   std::optional<double> seconds() const { return options.passes ? std::nullopt : std::optional(options.seconds); }
+  /// Of the reference that is made; nothing: as many as judge runs of a time.
+  std::optional<std::uint64_t> referencePasses() const {
+    if (options.referencePasses || !options.passes) return options.referencePasses;
+    return kReferenceFactor * *options.passes;
+  }
   fs::path image(const std::string& name) const { return options.folder / "images" / name; }
 };
 
@@ -130,6 +135,30 @@ void writeImage(const Work& work, const std::string& name, const ImageRgb& pictu
   writePicture({work.image(name + ".png"), PictureKind::kPng}, picture);
 }
 
+// ---- what is left to do
+
+double expectedSeconds(const Work& work) {
+  return work.options.passes ? 1 : work.options.seconds;  // without a time all runs count the same
+}
+
+double expectedReference(const Work& work) {
+  if (!work.options.passes) return kReferenceFactor * work.options.seconds;
+  return static_cast<double>(*work.referencePasses()) / static_cast<double>(*work.options.passes);
+}
+
+bool isDone(const MeasureResults& results, std::size_t configuration, int run) {
+  return std::any_of(results.runs.begin(), results.runs.end(),
+                     [&](const RunRecord& r) { return r.configuration == configuration && r.run == run; });
+}
+
+void expectRuns(Work& work) {
+  for (int run = 0; run < work.options.runs; ++run) {
+    for (std::size_t i = 0; i < work.results.plan.configurations.size(); ++i) {
+      if (!isDone(work.results, i, run)) work.progress.expect(expectedSeconds(work));
+    }
+  }
+}
+
 // ---- references
 
 MeasureReference readReference(const fs::path& file, const RenderSettings& settings) {
@@ -148,8 +177,8 @@ std::optional<MeasureReference> madeReference(Work& work, const Scene& scene, st
   settings.maxDepth = work.results.plan.cases[index].maxDepth;
   settings.camera = findCamera(scene, o.picture.camera);
   const std::string label = "reference of " + work.results.plan.cases[index].name;
-  const ReferenceRequest request{scene, settings, o.referencePasses, o.seconds, cacheFolder(o.folder)};
-  const double expected = o.passes ? 0 : kReferenceTimeFactor * o.seconds;
+  const ReferenceRequest request{scene, settings, work.referencePasses(), o.seconds, cacheFolder(o.folder)};
+  const double expected = expectedReference(work);
   const auto onPass = [&](std::uint64_t passes, double seconds, std::uint64_t aim) {
     const double share = static_cast<double>(passes) / static_cast<double>(aim);
     work.progress.update(
@@ -164,12 +193,30 @@ std::optional<MeasureReference> madeReference(Work& work, const Scene& scene, st
   return reference;
 }
 
+/// Whether the folder's reference is the one that the command asks for.
+bool isAsked(const MeasureReference& reference, const MeasureOptions& options) {
+  if (options.reference) return reference.file == *options.reference;
+  return !options.referencePasses || reference.passes >= *options.referencePasses;
+}
+
+bool hasRuns(const MeasureResults& results, std::size_t caseIndex) {
+  return std::any_of(results.runs.begin(), results.runs.end(), [&](const RunRecord& r) {
+    return results.plan.configurations[r.configuration].caseIndex == caseIndex;
+  });
+}
+
 /// The reference that the case's runs are compared with: of the folder, if it has one.
 bool prepareCase(Work& work, const Scene& scene, std::size_t index) {
   CaseRecord& record = work.results.cases[index];
   const std::string name = work.results.plan.cases[index].name + ".reference";
   const RenderSettings& settings = work.options.picture.settings;
-  if (record.reference && fs::exists(work.image(name + ".exr"))) {
+  const bool asked = record.reference && isAsked(*record.reference, work.options);
+  if (record.reference && !asked && hasRuns(work.results, index)) {
+    throw InputError(work.options.reference ? "--reference" : "--reference-spp",
+                     "runs in " + work.options.folder.string() + " were judged by " + record.reference->file.string() +
+                         "; leave the option out, or choose another folder");
+  }
+  if (asked && fs::exists(work.image(name + ".exr"))) {
     record.reference->picture = readReference(work.image(name + ".exr"), settings).picture;
     return true;
   }
@@ -189,15 +236,6 @@ bool prepareCase(Work& work, const Scene& scene, std::size_t index) {
 }
 
 // ---- runs
-
-bool isDone(const MeasureResults& results, std::size_t configuration, int run) {
-  return std::any_of(results.runs.begin(), results.runs.end(),
-                     [&](const RunRecord& r) { return r.configuration == configuration && r.run == run; });
-}
-
-double expectedSeconds(const Work& work) {
-  return work.options.passes ? 1 : work.options.seconds;  // without a time all runs count the same
-}
 
 std::string describe(const MeasureResults& results, std::size_t configuration, int run, int runs) {
   return "run " + std::to_string(run + 1) + " of " + std::to_string(runs) + ", " +
@@ -258,14 +296,6 @@ bool doAllRuns(Work& work, SceneSource& scenes) {
   return true;
 }
 
-void expectRuns(Work& work) {
-  for (int run = 0; run < work.options.runs; ++run) {
-    for (std::size_t i = 0; i < work.results.plan.configurations.size(); ++i) {
-      if (!isDone(work.results, i, run)) work.progress.expect(expectedSeconds(work));
-    }
-  }
-}
-
 // ---- the verb
 
 void prepareFolder(const MeasureOptions& options) {
@@ -317,9 +347,10 @@ int measure(const MeasureOptions& options, const Console& console) {
   if (options.resume && fs::exists(file)) takeOver(results, file);
   results.commands.push_back(console.commandLine);
   expectRuns(work);
-  if (!options.passes && !options.reference) {
-    for (const CaseRecord& c : results.cases)
-      work.progress.expect(c.reference ? 0 : kReferenceTimeFactor * options.seconds);
+  if (!options.reference) {
+    for (const CaseRecord& c : results.cases) {
+      if (!c.reference || !isAsked(*c.reference, options)) work.progress.expect(expectedReference(work));
+    }
   }
   bool complete = true;
   for (std::size_t i = 0; i < results.cases.size() && complete; ++i) {

@@ -106,7 +106,8 @@ void addHowLong(CLI::App& verb, MeasureOptions& o) {
   const auto passes = [&o](const std::string& t) {
     o.referencePasses = parseWhole("--reference-spp", t, {.least = 1, .most = kMaxPasses});
   };
-  addText(verb, "--reference-spp", "N", passes, "Samples per pixel of the one that is made (default: 16 times --time)")
+  addText(verb, "--reference-spp", "N", passes,
+          "Samples per pixel of the one that is made (default: 16 times --time or --spp)")
       ->excludes(reference);
   verb.add_flag("--resume", o.resume, "Go on with what is in FOLDER, or add runs to it");
 }

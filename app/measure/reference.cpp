@@ -150,7 +150,7 @@ class BatchFiles {
 bool suffices(const ReferenceRequest& request, const Batches& batches, std::uint64_t batchPasses) {
   if (batches.count < kFewestBatches) return false;
   if (request.passes) return batches.count * batchPasses >= *request.passes;
-  return batches.seconds >= kReferenceTimeFactor * request.seconds;
+  return batches.seconds >= kReferenceFactor * request.seconds;
 }
 
 std::uint64_t mostBatches(const ReferenceRequest& request, std::uint64_t batchPasses) {
@@ -161,9 +161,9 @@ std::uint64_t mostBatches(const ReferenceRequest& request, std::uint64_t batchPa
 /// Passes that the whole will take.
 std::uint64_t aim(const ReferenceRequest& request, const Batches& batches, std::uint64_t batchPasses) {
   if (request.passes) return mostBatches(request, batchPasses) * batchPasses;
-  const double needed = batches.seconds > 0 ? static_cast<double>(batches.count) * kReferenceTimeFactor *
-                                                  request.seconds / batches.seconds
-                                            : 0;
+  const double needed = batches.seconds > 0
+                            ? static_cast<double>(batches.count) * kReferenceFactor * request.seconds / batches.seconds
+                            : 0;
   return batchPasses * std::max(kFewestBatches, static_cast<std::uint64_t>(std::ceil(needed)));
 }
 

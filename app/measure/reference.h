@@ -34,9 +34,9 @@ struct ReferenceRequest {
   std::filesystem::path folder;  ///< of the cache; must exist
 };
 
-/// Times `seconds` that a reference takes if nothing else is asked for: by the law of the error, 1/t, its own is then a
-/// sixteenth of that which it judges, with some room below kMostReferenceShare.
-inline constexpr double kReferenceTimeFactor = 16;
+/// Times the seconds or samples of a run that a reference takes if nothing else is asked for: by the law of the error, 1/t,
+/// its own is then a sixteenth of that which it judges, with some room below kMostReferenceShare.
+inline constexpr int kReferenceFactor = 16;
 
 /// Most that a reference's own relMSE may be of the relMSE that it judges: errors that are measured against it are too large by
 /// that share.

@@ -176,6 +176,24 @@ Json frontsJson(const MeasureResults& results, const std::vector<SummaryRow>& ro
   return fronts;
 }
 
+/// What the file has otherwise than the command, in any order: "seed 5 in place of 0, parameters/threshold …"; empty if
+/// there is nothing.
+std::string differences(const nlohmann::json& file, const nlohmann::json& command) {
+  const nlohmann::json there = file.flatten();
+  nlohmann::json here = command.flatten();
+  std::string text;
+  const auto add = [&](const std::string& path, const std::string& before, const std::string& now) {
+    text += (text.empty() ? "" : ", ") + path.substr(path.starts_with('/')) + ' ' + before + " in place of " + now;
+  };
+  for (const auto& [path, value] : there.items()) {
+    if (!here.contains(path)) add(path, jsonText(value), "none");
+    if (here.contains(path) && here[path] != value) add(path, jsonText(value), jsonText(here[path]));
+    here.erase(path);
+  }
+  for (const auto& [path, value] : here.items()) add(path, "none", jsonText(value));
+  return text;
+}
+
 void takeOverCase(MeasureResults& results, const Json& json, const std::string& file) {
   const auto& cases = results.plan.cases;
   const auto name = json.at("name").get<std::string>();
@@ -262,10 +280,8 @@ void takeOver(MeasureResults& results, const std::filesystem::path& path) {
     checkJsonShape(text, file, "choose another folder");
     const Json json = Json::parse(text);
     // Through text, as the numbers in the file went: 0.002f there is the double nearest to it.
-    if (json.at("settings") != Json::parse(jsonText(results.settings))) {
-      throw InputError(
-          file, "was made with other settings (" + jsonText(json.at("settings")) + "); use them or another folder");
-    }
+    const std::string others = differences(json.at("settings"), Json::parse(jsonText(results.settings)));
+    if (!others.empty()) throw InputError(file, "was made with " + others + "; use that or another folder");
     for (const Json& c : json.at("cases")) takeOverCase(results, c, file);
     for (const Json& run : json.at("runs")) results.runs.push_back(runOf(results.plan, run, file));
     results.commands = json.at("commands").get<std::vector<std::string>>();

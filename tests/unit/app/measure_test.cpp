@@ -46,6 +46,19 @@ class MeasureTest : public testing::Test {
   Outcome measure(const std::string& output, const std::vector<std::string>& more = {}, std::ostream* err = nullptr) {
     return runCommand(arguments(output, more), err);
   }
+  /// Not of hall, whose tiny emitters are seen directly: the error of a reference of hundreds of passes is one of luck there.
+  std::vector<std::string> ofRooms(const std::string& output, const std::vector<std::string>& more = {}) {
+    auto args = arguments(output, more);
+    *std::find(args.begin(), args.end(), "hall") = "rooms";
+    return args;
+  }
+  /// With another number of them, or without the option.
+  static std::vector<std::string> withReferencePasses(const std::string& passes, std::vector<std::string> args) {
+    const auto option = std::find(args.begin(), args.end(), "--reference-spp");
+    option[1] = passes;
+    if (passes.empty()) args.erase(option, option + 2);
+    return args;
+  }
   nlohmann::json results(const std::string& output) const {
     std::ifstream file(folder_ / output / "results.json");
     return nlohmann::json::parse(file);
@@ -188,7 +201,11 @@ TEST_F(MeasureTest, NeverOverwritesResults) {
   EXPECT_THAT(again.err, HasSubstr("--resume"));
   const Outcome other = measure("a", {"--resume", "--seed", "5"});
   EXPECT_EQ(other.code, kBadInput);
-  EXPECT_THAT(other.err, HasSubstr("other settings"));
+  EXPECT_THAT(other.err, HasSubstr("was made with seed 0 in place of 5; use that"));
+  EXPECT_THAT(measure("a", {"--resume", "--threshold", "0.25"}).err,
+              HasSubstr("made with parameters/threshold 0.0005"));
+  std::ofstream(folder_ / "a" / "results.json") << "{\"settings\": 7}";
+  EXPECT_THAT(measure("a", {"--resume"}).err, HasSubstr("made with  7 in place of none"));
   std::ofstream(folder_ / "a" / "results.json") << "{\"settings\": ";
   EXPECT_EQ(measure("a", {"--resume"}).code, kBadInput);
 }
@@ -220,34 +237,47 @@ TEST_F(MeasureTest, ReferenceIsMadeOnce) {
   EXPECT_EQ(modified().size(), 4u);
 }
 
+TEST_F(MeasureTest, ResumeJudgesByTheReferenceThatIsAsked) {
+  ASSERT_EQ(runCommand(ofRooms("a")).code, kDone);
+  nlohmann::json stopped = results("a");
+  stopped["runs"].clear();
+  std::ofstream(folder_ / "a" / "results.json") << stopped;
+  const Outcome resumed = runCommand(withReferencePasses("512", ofRooms("a", {"--resume"})));
+  ASSERT_EQ(resumed.code, kDone) << resumed.err;
+  EXPECT_EQ(results("a").at("cases").at(0).at("reference").at("spp"), 512);
+  // A coarser one than there is is not made; by a finer one, its runs have not been judged.
+  EXPECT_EQ(runCommand(ofRooms("a", {"--resume"})).code, kDone);
+  EXPECT_EQ(results("a").at("cases").at(0).at("reference").at("spp"), 512);
+  const Outcome finer = runCommand(withReferencePasses("1024", ofRooms("a", {"--resume"})));
+  EXPECT_EQ(finer.code, kBadInput);
+  EXPECT_THAT(finer.err, HasSubstr("--reference-spp: runs in "));
+}
+
+TEST_F(MeasureTest, ReferenceHas16TimesTheSamplesOfARun) {
+  EXPECT_THAT(runCommand(withReferencePasses("", arguments("a"))).err,
+              HasSubstr("reference of hall-20-depth2: 80 spp"));
+}
+
 TEST_F(MeasureTest, NoisyReferenceIsRefused) {
-  auto noisy = arguments("a");
-  *(std::find(noisy.begin(), noisy.end(), "--reference-spp") + 1) = "4";
-  const Outcome outcome = runCommand(noisy);
+  const Outcome outcome = runCommand(withReferencePasses("4", arguments("a")));
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("--reference-spp"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a" / "results.csv"));
 }
 
 TEST_F(MeasureTest, GivenReferenceIsJudgedToo) {
-  // Not of hall, whose tiny emitters are seen directly: the error of a reference of 256 passes is one of luck.
-  const auto ofRooms = [&](const std::string& output, const std::vector<std::string>& more) {
-    auto args = arguments(output, more);
-    *std::find(args.begin(), args.end(), "hall") = "rooms";
-    return args;
-  };
-  ASSERT_EQ(runCommand(ofRooms("a", {})).code, kDone);
-  auto given = ofRooms("b", {"--reference", path("a/images/rooms-20-depth2.reference.exr")});
-  const auto passes = std::find(given.begin(), given.end(), "--reference-spp");
-  given.erase(passes, passes + 2);
-  ASSERT_EQ(runCommand(given).code, kDone);
+  ASSERT_EQ(runCommand(ofRooms("a")).code, kDone);
+  const auto by = [&](const std::string& picture) { return std::vector<std::string>{"--reference", path(picture)}; };
+  ASSERT_EQ(runCommand(withReferencePasses("", ofRooms("b", by("a/images/rooms-20-depth2.reference.exr")))).code,
+            kDone);
   EXPECT_EQ(errorsOf(results("a")), errorsOf(results("b")));
   EXPECT_LT(results("b").at("cases").at(0).at("reference").at("relmse"),
             results("b").at("runs").at(0).at("checkpoints").at(3).at("relmse"));
-  given = ofRooms("c", {"--reference", path("a/images/rooms-20-depth2.cell-cut.exr"), "--seed", "7"});
-  given.erase(std::find(given.begin(), given.end(), "--reference-spp"),
-              std::find(given.begin(), given.end(), "--reference-spp") + 2);
-  const Outcome outcome = runCommand(given);
+  auto resumed = withReferencePasses("", ofRooms("b", by("a/images/rooms-20-depth2.cell-cut.exr")));
+  resumed.emplace_back("--resume");
+  EXPECT_THAT(runCommand(resumed).err, HasSubstr("--reference: runs in "));
+  const Outcome outcome = runCommand(withReferencePasses(
+      "", ofRooms("c", {"--reference", path("a/images/rooms-20-depth2.cell-cut.exr"), "--seed", "7"})));
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("less noise"));
 }
