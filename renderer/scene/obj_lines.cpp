@@ -52,6 +52,15 @@ std::string withThreeNumbers(std::string_view map) {
   return plain;
 }
 
+/// Whether there are at least so many words before a comment, and all of them are numbers.
+bool areNumbers(std::string_view words, int least) {
+  words = words.substr(0, words.find('#'));
+  int count = 0;
+  std::string_view word = takeWord(words);
+  for (; isNumber(word); word = takeWord(words)) ++count;
+  return word.empty() && count >= least;
+}
+
 }  // namespace
 
 std::string_view unquoted(std::string_view name) {
@@ -98,6 +107,10 @@ ObjOutline readOutline(std::span<char> obj) {
     if (keyword == "f") {
       const std::size_t comment = std::min(line.find('#'), line.size());
       std::fill_n(obj.begin() + static_cast<std::ptrdiff_t>(offset + comment), line.size() - comment, ' ');
+    }
+    if (keyword == "v" || keyword == "vn" || keyword == "vt") {
+      outline.hasVertices |= keyword == "v";
+      if (outline.unreadable.empty() && !areNumbers(rest, keyword == "vt" ? 1 : 3)) outline.unreadable = line;
     }
     if (keyword == "mtllib") outline.libraries.emplace_back(unquoted(rest));
     if (keyword == "s") outline.hasSmoothingGroups |= trimmed(rest) != "0" && trimmed(rest) != "off";

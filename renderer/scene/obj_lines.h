@@ -25,6 +25,9 @@ void joinContinuedLines(std::span<char> text);
 struct ObjOutline {
   std::vector<std::string> libraries;  ///< what follows each "mtllib": one name with blanks, or several names
   bool hasSmoothingGroups = false;
+  bool hasVertices = false;
+  std::string
+      unreadable;  ///< first vertex, normal or texture coordinate of too few words, or of some that are no numbers
 };
 
 /// Reads what must be known before the faces, and puts blanks in place of comments after faces.

@@ -263,6 +263,11 @@ SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits) 
   const std::span text(reinterpret_cast<char*>(bytes.data()), bytes.size());
   joinContinuedLines(text);
   const ObjOutline outline = readOutline(text);
+  if (!outline.hasVertices) throw InputError(draft.name, "has no vertices; it is no OBJ file, or an empty one");
+  if (!outline.unreadable.empty()) {
+    throw InputError(draft.name, "'" + printable(outline.unreadable) +
+                                     "' has words that are no numbers, or too few; export the file again");
+  }
   for (const std::string& names : outline.libraries) reader.readLibraries(names);
 
   tinyobj::callback_t callbacks;
