@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* kScreenshotExplanations = R"(
 Beside OUT.png an OUT.json says what the overlay shows: minimum, maximum, mean, the share of cells touched, and with
---pick the inspector's table. --size is that of the PNG; with panels the rendering is what is left of it.
+--pick the inspector's table. --size is that of the PNG; with panels the rendering is what is left of it. Of --split
+the overlay, its numbers and --pick are those of the first strategy.
 
 Examples:
   cellcut screenshot room.glb -o room.png --overlay cut-size --spp 16
@@ -91,6 +92,7 @@ nlohmann::ordered_json numbersOf(const Viewer& viewer, const OverlayChoice& choi
   json["overlay"] = describe(choice.overlay).name;
   const OverlayPicture* overlay = viewer.overlay();
   if (!overlay) return json;
+  json["title"] = overlay->title;
   if (overlay->statistics.count > 0) {
     json["minimum"] = overlay->statistics.minimum;
     json["maximum"] = overlay->statistics.maximum;
@@ -140,6 +142,11 @@ int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
     renderToEnd(viewer, *window, passes);
   }
   const std::shared_ptr<const Snapshot> snapshot = viewer.session().snapshot();
+  if (!viewer.referenceFits() && viewer.reference().picture) {
+    throw InputError("--reference", "has other pixels than the rendering, which has " +
+                                        std::to_string(snapshot->width) + " x " + std::to_string(snapshot->height) +
+                                        "; choose --size, and --no-ui for a picture of that size");
+  }
   if (options.pick) {
     if (options.pick->x >= snapshot->width || options.pick->y >= snapshot->height) {
       throw InputError("--pick", "the picture has " + std::to_string(snapshot->width) + " x " +

@@ -101,7 +101,7 @@ void ImageView::draw(PixelSize framebuffer, const PixelRect& clip, const ImagePl
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     overlayProgram_.use();
     overlayProgram_.set("opacity", settings.overlayOpacity);
-    drawColumns(overlayProgram_, overlay_, {0, 1});
+    drawColumns(overlayProgram_, overlay_, {0, split});
     glBlendFunc(GL_ONE, GL_ZERO);
     glDisable(GL_BLEND);
   }

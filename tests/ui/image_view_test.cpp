@@ -218,6 +218,19 @@ TEST(ImageView, TheSplitShowsAAtTheLeftAndBAtTheRight) {
   EXPECT_EQ(canvas.draw(view, {}, settings).at(0, 0), Rgba8(255, 0, 0, 255));
 }
 
+TEST(ImageView, TheOverlayIsOfALone) {
+  Canvas canvas({4, 1});
+  ImageView view;
+  view.setImage(ImageSlot::kA, ImageRgb(4, 1, Vec3(1, 0, 0)));
+  view.setOverlay(ImageRgba8(4, 1, Rgba8(0, 255, 0, 255)));
+  ImageViewSettings settings = kPlain;
+  settings.split = 0.5f;
+  EXPECT_EQ(canvas.draw(view, {}, settings).at(3, 0), Rgba8(0, 255, 0, 255)) << "B is empty";
+  view.setImage(ImageSlot::kB, ImageRgb(4, 1, Vec3(0, 0, 1)));
+  const ImageRgba8 picture = canvas.draw(view, {}, settings);
+  for (int x = 0; x < 4; ++x) EXPECT_EQ(picture.at(x, 0), x < 2 ? Rgba8(0, 255, 0, 255) : Rgba8(0, 0, 255, 255)) << x;
+}
+
 TEST(ImageView, ANewPictureReplacesTheOldOfAnySize) {
   Canvas canvas({4, 4});
   ImageView view;

@@ -99,6 +99,22 @@ TEST_F(ViewerTest, EveryOverlayShowsItsValues) {
   EXPECT_GT(viewer_->overlay()->touched->inside, 0u);
 }
 
+TEST_F(ViewerTest, TheOverlayOfErrorsSaysWhatItsErrorsAre) {
+  play("set Show error\nwait idle\n");
+  EXPECT_EQ(viewer_->overlay()->title, "standard error of the mean");
+  const std::shared_ptr<const Snapshot> snapshot = viewer_->session().snapshot();
+  writePfm(folder_ / "reference.pfm", ImageRgb(snapshot->width, snapshot->height, Vec3(1)));
+  play("drop reference.pfm\nwait idle\n");
+  EXPECT_EQ(viewer_->overlay()->title, "error");
+}
+
+TEST_F(ViewerTest, ASeedBeyondTheSliderIsShownAsItIs) {
+  ViewerOptions options;
+  options.state.settings.seed = (std::uint64_t{1} << 63) + 5;
+  open(std::move(options));
+  play("expect Seed 9223372036854775813\n");
+}
+
 TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
   play("wait idle\npick 90 350\nwait idle\n");
   ASSERT_TRUE(viewer_->state().pick);
@@ -256,6 +272,10 @@ TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
   EXPECT_THAT(refusalOf("click \"Max\n"), HasSubstr("a quote has no end"));
   EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
   EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
+  EXPECT_THAT(refusalOf("wait idle\nkey Ctrl+Foo\n"), HasSubstr("script.txt:2: no key is called 'Ctrl+Foo'"));
+  EXPECT_THAT(refusalOf("set \"Max depth\" deep\n"), HasSubstr("script.txt:1: 'deep' is no number"));
+  EXPECT_THAT(refusalOf("pick 4000 2\n"), HasSubstr("script.txt:1: the picture has "));
+  EXPECT_THAT(refusalOf("screenshot a.exr\n"), HasSubstr("script.txt:1: 'a.exr' does not end in .png"));
   EXPECT_THAT(refusalOf("drag rihgt 1 1 5 5\n"), HasSubstr("'rihgt' is none of left, right, middle"));
   EXPECT_THAT(refusalOf("view 1 1 1 0 0 1 0 1 0 1 1 wide\n"), HasSubstr("'wide' is neither"));
 }

@@ -9,7 +9,7 @@ namespace cellcut {
 void drawLegend(const OverlayPicture& overlay, const OverlayChoice& choice, const PixelRect& area, float uiScale) {
   const OverlayName& name = describe(overlay.overlay);
   const ColorScale scale(overlay.values, scaleOf(overlay.overlay, choice.scale));
-  const Legend legend = makeLegend(scale, name.title, name.unit, name.integral);
+  const Legend legend = makeLegend(scale, overlay.title, name.unit, name.integral);
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const float font = ImGui::GetFontSize(), width = std::min(16 * font, area.size.x - 2 * font), height = 0.9f * font;
   const float pad = 0.5f * font;

@@ -69,7 +69,10 @@ ImageRgba8 drawLines(const SessionView& view, const Image<FirstHit>& hits, const
 std::optional<OverlayPicture> makePicture(const SessionView& view, const Image<FirstHit>& hits,
                                           const OverlayChoice& choice, std::optional<glm::ivec2> pick,
                                           const ImageRgb* reference) {
-  OverlayPicture picture{.generation = view.generation, .overlay = choice.overlay};
+  const bool ofMean = choice.overlay == Overlay::kError && !reference;
+  OverlayPicture picture{.generation = view.generation,
+                         .overlay = choice.overlay,
+                         .title = ofMean ? "standard error of the mean" : describe(choice.overlay).title};
   picture.lightCount = view.lights.size();
   const Camera& camera = viewOf(*view.scene, view.settings);
   const glm::ivec2 size(view.settings.width, view.settings.height);

@@ -18,7 +18,8 @@ namespace cellcut {
 struct OverlayPicture {
   std::uint64_t generation = 0;  ///< of the session's edit that it belongs to
   Overlay overlay = Overlay::kNone;
-  Image<float> values;  ///< empty without an overlay
+  std::string_view title;  ///< of the values: which of two the overlay of errors shows
+  Image<float> values;     ///< empty without an overlay
   OverlayStatistics statistics;
   std::optional<TouchedCells> touched;
   ImageRgba8 lines;            ///< wireframe, transparent elsewhere; empty without lines

@@ -79,7 +79,8 @@ ViewerCommand drawReferencePanel(Widgets& widgets, const ViewerFacts& facts, Vie
   widgets.text("Compared with",
                m.reference.passes > 0 ? std::to_string(m.reference.passes) + " spp made here" : std::string("a file"));
   if (!m.fits) {
-    ImGui::TextWrapped("It shows another view, size, depth or lights.");
+    ImGui::TextWrapped("It shows another view, size, depth or lights; it has %d x %d pixels.",
+                       m.reference.picture->width(), m.reference.picture->height());
     return command;
   }
   drawNumbers(widgets, m.run);

@@ -61,7 +61,12 @@ void checkAction(const ScriptAction& action, const std::string& place) {
   }
   for (const Verb& verb : kVerbs) {
     if (verb.name != action.words[0]) continue;
-    if (action.words.size() == verb.words) return;
+    if (action.words.size() == verb.words) {
+      if (verb.name == "screenshot" && !action.words[1].ends_with(".png")) {
+        throw InputError(place, "'" + action.words[1] + "' does not end in .png, as a screenshot does");
+      }
+      return;
+    }
     throw InputError(place, "'" + action.words[0] + "' takes " + std::to_string(verb.words - 1) +
                                 " words; names of several words stand in quotes");
   }
@@ -190,12 +195,12 @@ void ScriptPlayer::clickAt(Stage& stage, Vec2 position, MouseButton button) cons
   frames(stage, 2);
 }
 
-void ScriptPlayer::press(Stage& stage, const std::string& keys) const {
+void ScriptPlayer::press(const ScriptAction& action, Stage& stage, const std::string& keys) const {
   std::vector<Key> pressed;
   for (std::size_t begin = 0; begin <= keys.size();) {
     const std::size_t end = std::min(keys.find('+', begin), keys.size());
     const std::optional<Key> key = keyFromName(keys.substr(begin, end - begin));
-    if (!key) throw InputError(name_.string(), "no key is called '" + keys + "'");
+    if (!key) fail(action, "no key is called '" + printable(keys) + "'; F1 in the viewer shows them");
     pressed.push_back(*key);
     begin = end + 1;
   }
@@ -238,6 +243,7 @@ void ScriptPlayer::set(const ScriptAction& action, Stage& stage) const {
       return;
     }
     case WidgetItem::Kind::kNumber:
+      number(action, 2);  // refuses what is none
       // Ctrl+click turns a slider into a field; a field takes it as a click.
       stage.window.post(KeyChange{Key::kLeftControl, true});
       frames(stage, 1);
@@ -248,7 +254,7 @@ void ScriptPlayer::set(const ScriptAction& action, Stage& stage) const {
       stage.window.post(KeyChange{Key::kLeftControl, false});
       frames(stage, 2);
       type(stage, value);
-      press(stage, "Enter");
+      press(action, stage, "Enter");
       frames(stage, 2);
       return;
     default:
@@ -290,7 +296,7 @@ void ScriptPlayer::paste(const ScriptAction& action, Stage& stage) const {
     fail(action, "'" + projection + "' is neither perspective nor orthographic");
   }
   stage.window.setClipboard(poseToJson(pose));
-  press(stage, "Ctrl+V");
+  press(action, stage, "Ctrl+V");
 }
 
 void ScriptPlayer::wait(const ScriptAction& action, Stage& stage) const {
@@ -355,9 +361,16 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
     stage.window.post(Scroll{{0, number(action, 3)}});
     frames(stage, 2);
   } else if (words[0] == "key") {
-    press(stage, words[1]);
+    press(action, stage, words[1]);
   } else if (words[0] == "pick") {
-    clickAt(stage, stage.viewer.placement().toFramebuffer(at(1) + 0.5f));
+    const std::shared_ptr<const Snapshot> picture = stage.viewer.session().snapshot();
+    const Vec2 pixel = at(1);
+    if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(picture->width) &&
+          pixel.y < static_cast<float>(picture->height))) {
+      fail(action, "the picture has " + std::to_string(picture->width) + " x " + std::to_string(picture->height) +
+                       " pixels, counted from 0");
+    }
+    clickAt(stage, stage.viewer.placement().toFramebuffer(pixel + 0.5f));
   } else if (words[0] == "drop") {
     stage.window.postDrop(folder_ / words[1]);
     frames(stage, 2);

@@ -55,7 +55,7 @@ class ScriptPlayer {
   void perform(const ScriptAction& action, Stage& stage);
   void frames(Stage& stage, int count) const;
   void clickAt(Stage& stage, Vec2 position, MouseButton button = MouseButton::kLeft) const;
-  void press(Stage& stage, const std::string& keys) const;
+  void press(const ScriptAction& action, Stage& stage, const std::string& keys) const;
   void type(Stage& stage, const std::string& text) const;
   void set(const ScriptAction& action, Stage& stage) const;
   /// Draws frames with the news that come in.

@@ -86,6 +86,8 @@ class Viewer {
   /// Whether it is at rest for a limit's sake: without an edit no sample comes any more.
   bool reachedLimit() const;
   const Reference& reference() const { return reference_; }
+  /// Whether what is rendered converges to it.
+  bool referenceFits() const { return reference_.fits(applied_); }
   const Convergence& convergence() const { return convergence_; }
   const std::vector<ConvergenceRun>& keptRuns() const { return keptRuns_; }
   const std::optional<Trade>& trade() const { return trade_; }
@@ -112,7 +114,6 @@ class Viewer {
   bool overlayIsOfScene() const {
     return overlay_ && scene_ == applied_.scene && overlay_->generation >= sceneGeneration_;
   }
-  bool referenceFits() const { return reference_.fits(applied_); }
   void useReference(Reference reference);
   void toggleReference();
   void takeTrade();

@@ -67,9 +67,7 @@ void Viewer::showOverlay() {
   if (shown.empty()) {
     shown = overlay_->lines;
   } else if (!overlay_->lines.empty()) {
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-      if (overlay_->lines[i].w > 0) shown[i] = overlay_->lines[i];
-    }
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = over(shown[i], overlay_->lines[i]);
   }
   if (shown.empty()) {
     view_.clearOverlay();
