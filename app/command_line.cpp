@@ -50,7 +50,12 @@ int reportParseOutcome(const CLI::App& program, const CLI::ParseError& outcome, 
   }
   const auto chosen = program.get_subcommands();
   const std::string place = chosen.empty() ? "cellcut" : "cellcut " + chosen.front()->get_name();
-  console.err << place << ": " << oneLine(outcome.what()) << "; see '" << place << " --help'\n";
+  std::string problem = outcome.what();
+  if (outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {  // whose text has them backwards
+    problem = "not expected:";
+    for (const std::string& argument : program.remaining(true)) problem += ' ' + argument;
+  }
+  console.err << place << ": " << oneLine(problem) << "; see '" << place << " --help'\n";
   return kBadInput;
 }
 

@@ -202,6 +202,13 @@ void addSceneOptions(CLI::App& verb, RenderOptions& o) {
   addLoadLimits(verb, o.load.limits);
 }
 
+bool givesLight(const Scene& scene) {
+  return scene.environment || !scene.pointLights.empty() || !scene.spotLights.empty() ||
+         !scene.directionalLights.empty() ||
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return m.unlit || m.emission != Vec3(0); });
+}
+
 std::string describeCameras(const Scene& scene) {
   std::string text;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -326,6 +333,10 @@ Scene loadWithOptions(const RenderOptions& options) {
     const std::string name = environment.file->string();
     setEnvironment(scene, readImage(*environment.file, options.load.limits.maxTextureBytes), environment.scale,
                    environment.rotation, name);
+  }
+  if (!givesLight(scene)) {
+    scene.warnings.emplace_back(
+        "nothing in the scene gives light, so that the picture is black; --environment lights it");
   }
   return scene;
 }

@@ -51,6 +51,7 @@ bool isWritable(const fs::path& folder) {
 }
 
 void requireWritable(const fs::path& file) {
+  if (file == "-") throw InputError("-", "is not standard output here; name a file");
   if (!file.has_filename()) throw InputError(file.string(), "is a folder; name a file in it");
   const fs::path written = writtenFile(file);
   const fs::path folder = written.has_parent_path() ? written.parent_path() : fs::path(".");

@@ -125,6 +125,10 @@ void addMeasureOptions(CLI::App& verb, MeasureOptions& options) {
 
 void requireConsistent(const MeasureOptions& o) {
   const bool isRecipe = recipeFromName(o.scene).has_value();
+  std::error_code error;  // what cannot be looked at, cannot be read either, and that says why
+  if (!isRecipe && !std::filesystem::exists(o.scene, error) && !error) {
+    throw InputError(o.scene, "is no file, and none of the recipes " + joinedNames(kRecipes));
+  }
   if (!isRecipe && !o.lights.empty())
     throw InputError("--lights", "'" + o.scene + "' is a file; only recipes take a number of lights");
   const bool hasDepths =

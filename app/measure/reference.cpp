@@ -4,6 +4,7 @@
 #include "app/output.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
+#include "renderer/base/relative_error.h"
 #include "renderer/base/rng.h"
 #include "renderer/base/stopwatch.h"
 #include "renderer/trace/renderer.h"
@@ -57,7 +58,8 @@ double ownError(const Batches& batches) {
   for (std::size_t i = 0; i < batches.mean.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const double value = batches.mean[i][c], deviation = batches.deviation[i][c];
-      if (deviation > 0) sum += deviation * deviation / (n * (n - 1)) / (value * value + 0.01 * mean * mean);
+      if (deviation > 0)
+        sum += deviation * deviation / (n * (n - 1)) / (value * value + kRelativeEpsilon * mean * mean);
     }
   }
   return sum / (3 * static_cast<double>(batches.mean.size()));

@@ -1,5 +1,6 @@
 #include "renderer/measure/metrics.h"
 
+#include "renderer/base/relative_error.h"
 #include "renderer/base/srgb.h"
 #include "renderer/base/tone_map.h"
 #include "renderer/measure/flip.h"
@@ -79,7 +80,7 @@ ImageComparison compare(const ImageRgb& a, const ImageRgb& b, bool withFlip) {
   ImageComparison result;
   result.meanA = meanOf(a);
   result.meanB = meanOf(b);
-  result.epsilon = 0.01 * result.meanB * result.meanB;
+  result.epsilon = kRelativeEpsilon * result.meanB * result.meanB;
   result.mse = meanOverPixels(width, height, [&](int x, int y) { return channelMean(squares(x, y)); });
   result.relmse = meanOverPixels(width, height, [&](int x, int y) {
     const glm::dvec3 square = squares(x, y);
@@ -106,7 +107,7 @@ ImageComparison compareImages(const ImageRgb& a, const ImageRgb& b) {
 
 double referenceError(const ImageRgb& a, const ImageRgb& b, const ImageRgb& reference) {
   assert(a.size() == b.size() && a.size() == reference.size() && !a.empty());
-  const double mean = meanOf(reference), epsilon = 0.01 * mean * mean;
+  const double mean = meanOf(reference), epsilon = kRelativeEpsilon * mean * mean;
   return meanOverPixels(reference.width(), reference.height(), [&](int x, int y) {
     const glm::dvec3 r(reference.at(x, y));
     const glm::dvec3 product = (glm::dvec3(a.at(x, y)) - r) * (glm::dvec3(b.at(x, y)) - r), scale = r * r + epsilon;

@@ -1,5 +1,7 @@
 #include "renderer/measure/quality_trials.h"
 
+#include "renderer/base/relative_error.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -60,7 +62,7 @@ std::vector<double> variances(const FilmState& film, const ImageRgb& blocks) {
     for (int x = 0; x < film.mean.width(); ++x) {
       const glm::dvec3 error = glm::dvec3(film.standardError.at(x, y)) / unit;
       const glm::dvec3 mean = glm::dvec3(blocks.at(x / kGroupSide, y / kGroupSide)) / unit;
-      const glm::dvec3 relative = n * error * error / (mean * mean + 0.01);  // ε as in `compare`
+      const glm::dvec3 relative = n * error * error / (mean * mean + kRelativeEpsilon);
       result.push_back((relative.x + relative.y + relative.z) / 3);
     }
   }

@@ -1,9 +1,8 @@
 #include "renderer/sampling/cell_cut.h"
 
+#include "renderer/base/stopwatch.h"
 #include "renderer/sampling/facing.h"
 #include "renderer/sampling/strategies.h"
-
-#include <chrono>
 
 namespace cellcut {
 namespace {
@@ -12,17 +11,13 @@ namespace {
 class AddElapsed {
  public:
   explicit AddElapsed(std::atomic<std::uint64_t>& sum) : sum_(sum) {}
-  ~AddElapsed() {
-    const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start_);
-    sum_.fetch_add(static_cast<std::uint64_t>(elapsed.count()), std::memory_order_relaxed);
-  }
+  ~AddElapsed() { sum_.fetch_add(static_cast<std::uint64_t>(1e9 * watch_.seconds()), std::memory_order_relaxed); }
   AddElapsed(const AddElapsed&) = delete;
   AddElapsed& operator=(const AddElapsed&) = delete;
 
  private:
-  using Clock = std::chrono::steady_clock;
   std::atomic<std::uint64_t>& sum_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch watch_;
 };
 
 }  // namespace

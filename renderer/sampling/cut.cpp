@@ -19,16 +19,15 @@ constexpr std::size_t kFewClusters = kClusterBlock;
 
 }  // namespace
 
-LightTrees::LightTrees(const Lights& ofLights)
-    : LightTrees(ofLights, intensityExponent(ofLights), std::chrono::steady_clock::now()) {}
+LightTrees::LightTrees(const Lights& ofLights) : LightTrees(ofLights, intensityExponent(ofLights), Stopwatch()) {}
 
-LightTrees::LightTrees(const Lights& ofLights, int exponentOfUnit, std::chrono::steady_clock::time_point start)
+LightTrees::LightTrees(const Lights& ofLights, int exponentOfUnit, const Stopwatch& build)
     : lights(ofLights),
       local(localBounds(lights, exponentOfUnit), LightId{0}, false),
       distant(distantBounds(lights, exponentOfUnit), lights.idOf(LightKind::kDirectional, 0), true),
       firstDistant(lights.idOf(LightKind::kDirectional, 0)),
       exponent(exponentOfUnit),
-      buildSeconds_(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()) {}
+      buildSeconds_(build.seconds()) {}
 
 TreeStatistics LightTrees::statistics() const {
   return {local.nodes().size() + distant.nodes().size(), std::max(local.depth(), distant.depth()), buildSeconds_,

@@ -6,12 +6,12 @@
 #pragma once
 
 #include "renderer/base/capabilities.h"
+#include "renderer/base/stopwatch.h"
 #include "renderer/sampling/cluster.h"
 #include "renderer/sampling/discrete_cdf.h"
 #include "renderer/sampling/sampler_settings.h"
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,7 +36,7 @@ struct LightTrees {
   std::size_t bytes() const { return local.bytes() + distant.bytes(); }
 
  private:
-  LightTrees(const Lights& ofLights, int exponentOfUnit, std::chrono::steady_clock::time_point start);
+  LightTrees(const Lights& ofLights, int exponentOfUnit, const Stopwatch& build);
   double buildSeconds_;
 };
 

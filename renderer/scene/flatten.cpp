@@ -65,15 +65,6 @@ DoubleBounds draftBounds(const SceneDraft& draft) {
   return bounds;
 }
 
-void checkTriangleBudget(const SceneDraft& draft) {
-  std::size_t count = 0;
-  for (const PartInstance& instance : draft.instances) count += draft.parts[instance.part].triangles.size();
-  if (count > draft.limits.maxTriangles) {
-    throw InputError(draft.name, std::to_string(count) + " triangles with all instances written out; the limit is " +
-                                     std::to_string(draft.limits.maxTriangles) + " (--max-triangles)");
-  }
-}
-
 enum Attribute : std::uint8_t { kNormals = 1, kTangents = 2, kTexCoords0 = 4, kTexCoords1 = 8, kColors = 16 };
 
 std::uint8_t attributesOf(const Part& part) {
@@ -294,7 +285,6 @@ bool usesTexCoords(const Material& material, std::uint8_t set) {
 }
 
 Scene flatten(SceneDraft draft) {
-  checkTriangleBudget(draft);
   const DoubleBounds bounds = draftBounds(draft);
   Scene& scene = draft.scene;
   scene.origin = bounds.centre();

@@ -31,7 +31,14 @@ bool isBinaryGltf(std::span<const std::byte> file) {
 }
 
 std::string_view gltfJson(std::span<const std::byte> file, const std::string& name) {
-  if (!isBinaryGltf(file)) return textOf(file);
+  if (!isBinaryGltf(file)) {
+    const std::string_view text = textOf(file);
+    constexpr std::string_view kBeforeAnObject = " \t\r\n\xEF\xBB\xBF";  // the last three: a byte order mark
+    const std::size_t first = text.find_first_not_of(kBeforeAnObject);
+    if (first == std::string_view::npos || text[first] != '{')
+      throw InputError(name, "is no glTF file, neither JSON nor binary; export the file again");
+    return text;
+  }
   if (file.size() < kHeaderBytes + kChunkHeaderBytes)
     throw InputError(name, "the file ends inside its header; copy it again");
   if (wordAt(file, 4) != 2) {

@@ -52,7 +52,7 @@ bool usesTexCoords(const Material& material, std::uint8_t set);
 /// Writes out the instances around the centre of all triangles (Scene::origin), drops degenerate triangles and fills in
 /// what materials need and files leave out: texture coordinates, tangents, a camera. Parallel; the same result for any
 /// number of threads.
-/// \throws InputError if there are more than limits.maxTriangles, or a place leaves the range of a float.
+/// \throws InputError if a place leaves the range of a float
 Scene flatten(SceneDraft draft);
 
 }  // namespace cellcut

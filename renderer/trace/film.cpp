@@ -1,5 +1,7 @@
 #include "renderer/trace/film.h"
 
+#include "renderer/base/relative_error.h"
+
 #include <atomic>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -9,11 +11,11 @@ namespace {
 
 using DVec3 = glm::dvec3;
 
-std::vector<float> interleaved(const Image<DVec3>& image) {
+std::vector<float> interleaved(const ImageRgb& image) {
   std::vector<float> values;
   values.reserve(image.size() * 3);
-  for (const DVec3& v : image) {
-    for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(v[c]));
+  for (const Vec3& v : image) {
+    for (int c = 0; c < 3; ++c) values.push_back(v[c]);
   }
   return values;
 }
@@ -84,13 +86,6 @@ DVec3 Film::errorOf(const Sums& sums) const {
   return glm::sqrt(sums.squares / (n * (n - 1)));
 }
 
-Image<glm::dvec3> Film::errors() const {
-  Image<DVec3> image(width(), height());
-  if (passes_ < 2) return image;
-  for (std::size_t i = 0; i < image.size(); ++i) image[i] = errorOf(sums_[i]);
-  return image;
-}
-
 ImageRgb Film::standardError() const {
   ImageRgb image(width(), height());
   if (passes_ < 2) return image;
@@ -108,7 +103,7 @@ double Film::relativeError() const {
   double sum = 0;
   for (const Sums& sums : sums_) {
     const DVec3 error = errorOf(sums) / mean, value = sums.mean / mean;
-    for (int c = 0; c < 3; ++c) sum += error[c] * error[c] / (value[c] * value[c] + 0.01);
+    for (int c = 0; c < 3; ++c) sum += error[c] * error[c] / (value[c] * value[c] + kRelativeEpsilon);
   }
   return std::sqrt(sum / (3 * static_cast<double>(sums_.size())));
 }
@@ -118,26 +113,22 @@ std::size_t Film::bytes() const {
 }
 
 LayeredImage Film::layers() const {
-  Image<DVec3> means(width(), height());
-  if (passes_ > 0) {
-    for (std::size_t i = 0; i < means.size(); ++i) means[i] = sums_[i].mean;
-  }
   LayeredImage image{width(), height(), {}, {}};
-  image.layers.push_back({"", {"R", "G", "B"}, interleaved(means)});
+  image.layers.push_back({"", {"R", "G", "B"}, interleaved(mean())});
   if (!auxiliary_.empty()) {
-    Image<DVec3> albedo(width(), height()), normal(width(), height());
+    ImageRgb albedo(width(), height()), normal(width(), height());
     std::vector<float> depth;
     depth.reserve(auxiliary_.size());
     for (std::size_t i = 0; i < auxiliary_.size(); ++i) {
-      albedo[i] = auxiliary_[i].albedo;
-      normal[i] = auxiliary_[i].normal;
+      albedo[i] = Vec3(auxiliary_[i].albedo);
+      normal[i] = Vec3(auxiliary_[i].normal);
       depth.push_back(static_cast<float>(auxiliary_[i].depth));
     }
     image.layers.push_back({"albedo", {"R", "G", "B"}, interleaved(albedo)});
     image.layers.push_back({"normal", {"X", "Y", "Z"}, interleaved(normal)});
     image.layers.push_back({"depth", {"Z"}, std::move(depth)});
   }
-  image.layers.push_back({"error", {"R", "G", "B"}, interleaved(errors())});
+  image.layers.push_back({"error", {"R", "G", "B"}, interleaved(standardError())});
   return image;
 }
 

@@ -83,7 +83,6 @@ class Film {
     Vec3 albedo, normal;
     float depth;
   };
-  Image<glm::dvec3> errors() const;
   /// Of the mean, per channel. \pre passes() ≥ 2
   glm::dvec3 errorOf(const Sums& sums) const;
 

@@ -1,5 +1,7 @@
 #include "renderer/trace/noise.h"
 
+#include "renderer/base/relative_error.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -36,7 +38,7 @@ Moments rest(const Moments& whole, const Moments& part) {
 double expectedError(const Moments& part, const Moments& whole) {
   const Moments other = rest(whole, part);
   const auto across = [&](const Moments& variance, const Moments& mean) {
-    return variance.squares / ((variance.n - 1) * (square(mean.mean) + 0.01));
+    return variance.squares / ((variance.n - 1) * (square(mean.mean) + kRelativeEpsilon));
   };
   return 0.5 * (across(part, other) + across(other, part)) / whole.n;
 }

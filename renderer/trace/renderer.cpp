@@ -1,10 +1,10 @@
 #include "renderer/trace/renderer.h"
 
+#include "renderer/base/stopwatch.h"
 #include "renderer/trace/arena_niceness.h"
 #include "renderer/trace/pass_renderer.h"
 
 #include <cassert>
-#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -56,9 +56,8 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 bool Renderer::renderPass(const std::atomic<bool>& cancel, double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const auto isOver = [&] { return std::chrono::duration<double>(Clock::now() - start).count() >= seconds; };
+  const Stopwatch pass;
+  const auto isOver = [&] { return pass.seconds() >= seconds; };
   State& s = *state_;
   s.passes.startPass();
   std::atomic<bool> late = false;

@@ -1,5 +1,7 @@
 #include "renderer/trace/session_driver.h"
 
+#include "renderer/base/stopwatch.h"
+
 #include <algorithm>
 
 namespace cellcut {
@@ -11,10 +13,6 @@ constexpr int kDriverNiceness = 10;
 constexpr int kCoarsestPreviewScale = 32;
 /// Of the grace: a first preview that takes longer makes the next one coarser.
 constexpr double kSlowShare = 0.4;
-
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 int threadCount(const RenderSettings& settings) {
   if (settings.threads > 0) return settings.threads;
@@ -231,15 +229,16 @@ bool SessionDriver::limitReached() {
 
 void SessionDriver::renderPreview() {
   state_ = SessionState::kPreview;
-  const auto start = Clock::now();
+  const Stopwatch preview;
+  const Clock::time_point graceEnd = Clock::now() + kPreviewGrace;
   const RenderSettings& settings = picture_.input().settings;
   Film film(scaledDown(settings.width, previewScale_), scaledDown(settings.height, previewScale_), false);
   const std::unique_ptr<PassRenderer> passes = picture_.passesOver(film);
-  if (!renderPass(*passes, film, start + kPreviewGrace, {})) {
-    if (Clock::now() >= start + kPreviewGrace) firstScale_ = std::min(2 * firstScale_, kCoarsestPreviewScale);
+  if (!renderPass(*passes, film, graceEnd, {})) {
+    if (Clock::now() >= graceEnd) firstScale_ = std::min(2 * firstScale_, kCoarsestPreviewScale);
     return;
   }
-  const double seconds = secondsSince(start);
+  const double seconds = preview.seconds();
   auto snapshot = describe(*passes, film, seconds);
   snapshot->preview = true;
   snapshot->sampler = picture_.sampler().statistics();
@@ -256,13 +255,13 @@ void SessionDriver::renderPreview() {
 
 void SessionDriver::renderPass() {
   state_ = SessionState::kRendering;
-  const auto start = Clock::now();
+  const Stopwatch pass;
   const auto publishLast = [&] {
     if (unpublished_) publishFilm();
   };
-  if (!renderPass(picture_.passes(), picture_.film(), start, publishLast)) return;
+  if (!renderPass(picture_.passes(), picture_.film(), Clock::now(), publishLast)) return;
   statistics_ = picture_.sampler().statistics();
-  seconds_ += secondsSince(start);
+  seconds_ += pass.seconds();
   unpublished_ = true;
   const std::lock_guard lock(mutex_);
   if (!pending_ && steps_ > 0) --steps_;

@@ -18,8 +18,9 @@ void drawLegend(const OverlayPicture& overlay, const OverlayChoice& choice, cons
                       ImVec2(corner.x + width + 2 * pad, corner.y + 3.6f * font), IM_COL32(15, 15, 18, 205),
                       4 * uiScale);
   const std::string title = legend.unit.empty() ? legend.title : legend.title + ", " + legend.unit;
-  list->AddText(corner, IM_COL32_WHITE, (legend.range ? title : title + ": no values").c_str());
-  if (!legend.range) return;
+  const bool hasValues = legend.range && overlay.statistics.count > 0;
+  list->AddText(corner, IM_COL32_WHITE, (hasValues ? title : title + ": no values").c_str());
+  if (!hasValues) return;
   const ImVec2 bar(corner.x, corner.y + 1.2f * font);
   constexpr int kSteps = 128;
   for (int i = 0; i < kSteps; ++i) {

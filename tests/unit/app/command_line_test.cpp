@@ -88,7 +88,8 @@ TEST(CommandLine, BadUsageIsOneLine) {
   expectRefused({"render", "a.glb"}, "--output is required");
   expectRefused({"render", "a.glb", "-o", "a.png", "--spp", "1", "--time", "1"}, "excludes");
   expectRefused({"render", "a.glb", "-o", "a.png", "--spp", "1x"}, "--spp: '1x'");
-  expectRefused({"render", "a.glb", "-o", "a.png", "--frobnicate"}, "--frobnicate");
+  expectRefused({"render", "a.glb", "-o", "a.png", "--frobnicate", "2", "--quux"},
+                "not expected: --frobnicate 2 --quux; see");
   expectRefused({"generate", "castle", "--lights", "1", "-o", "a.glb"}, "rooms, street, hall, kinds");
   expectRefused({"generate", "rooms", "--lights", "-1", "-o", "a.glb"}, "--lights: '-1'");
   expectRefused({"generate", "rooms", "--lights", "1", "-o", "a.gltf"}, ".glb");
@@ -285,9 +286,21 @@ TEST_F(VerbsOnAScene, NamesMayBeAnyBytes) {
   EXPECT_THAT(nlohmann::json::parse(info.out).at("warnings").dump(), HasSubstr("caf\ufffd"));
 }
 
+TEST_F(VerbsOnAScene, ASceneWithoutLightIsRenderedWithAWarning) {
+  writeFile(path("dark.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  writePfm(path("sky.pfm"), ImageRgb(4, 2, Vec3(1)));
+  std::vector<std::string> render{"render", path("dark.obj"), "-o", path("dark.pfm"), "--size", "2x2", "--spp", "1"};
+  const Outcome dark = runCommand(render);
+  EXPECT_EQ(dark.code, kDone);
+  EXPECT_THAT(dark.err, HasSubstr("nothing in the scene gives light"));
+  render.insert(render.end(), {"--environment", path("sky.pfm")});
+  EXPECT_THAT(runCommand(render).err, Not(HasSubstr("nothing in the scene gives light")));
+}
+
 TEST_F(VerbsOnAScene, NoOutputReplacesAnInputOrAnotherOutput) {
   const std::string scene = path("kinds.glb"), before = contents("kinds.glb");
   expectRefused({"render", scene, "-o", path("a.png"), "--report", scene}, "is the file of SCENE too");
+  expectRefused({"render", scene, "-o", path("a.png"), "--report", "-"}, "-: is not standard output here");
   expectRefused({"render", scene, "-o", path("a.png"), "--report", path("a.png")}, "is the file of --output too");
   writePfm(path("sky.pfm"), ImageRgb(4, 2, Vec3(1)));
   expectRefused({"render", scene, "-o", path("sky.pfm"), "--environment", path("sky.pfm")}, "of --environment too");

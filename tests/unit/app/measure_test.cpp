@@ -306,6 +306,9 @@ TEST_F(MeasureTest, BadArgumentsAreRefused) {
   refused({"--runs", "0"}, "--runs");
   refused({"--time", "1"}, "excludes");
   refused({"--camera", "nowhere"}, "nowhere");
+  EXPECT_THAT(runCommand({"measure", "room", "-o", path("room")}).err,
+              HasSubstr("room: is no file, and none of the recipes"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "room"));
   const std::string file = path("a.glb");
   ASSERT_EQ(runCommand({"generate", "kinds", "--lights", "3", "-o", file}).code, kDone);
   const auto ofFile = [&](std::vector<std::string> more) {

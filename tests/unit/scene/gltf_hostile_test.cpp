@@ -401,6 +401,9 @@ TEST_F(HostileGltf, RefusesWhatIsNoSceneFile) {
   EXPECT_THAT(refusalOf(folder / "missing.glb"), HasSubstr("missing.glb"));
   EXPECT_THAT(refusalOf(folder.path()), HasSubstr(folder.path().string() + ": is not a scene file; .gltf"));
   EXPECT_THAT(refusalOf(test::writeFile(folder / "empty.glb", "")), HasSubstr("empty.glb: is empty"));
+  for (const char* name : {"picture.glb", "picture.gltf"}) {
+    EXPECT_THAT(refusalOf(test::writeFile(folder / name, "\x89PNG\r\n\x1a\n")), HasSubstr(": is no glTF file"));
+  }
   EXPECT_THAT(refusalOf(test::writeFile(folder / "a.fbx", "x")), HasSubstr(".gltf"));
   for (const char* text :
        {"", "{", "[]", "null", "{}", "{\"asset\":1}", "{\"asset\":{\"version\":2}}", "1e999", "\xFF\xFE"}) {
