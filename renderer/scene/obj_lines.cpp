@@ -110,7 +110,8 @@ ObjOutline readOutline(std::span<char> obj) {
     }
     if (keyword == "v" || keyword == "vn" || keyword == "vt") {
       outline.hasVertices |= keyword == "v";
-      if (outline.unreadable.empty() && !areNumbers(rest, keyword == "vt" ? 1 : 3)) outline.unreadable = line;
+      std::string& unreadable = keyword == "v" ? outline.unreadableVertex : outline.unreadableAttribute;
+      if (unreadable.empty() && !areNumbers(rest, keyword == "vt" ? 1 : 3)) unreadable = line;
     }
     if (keyword == "mtllib") outline.libraries.emplace_back(unquoted(rest));
     if (keyword == "s") outline.hasSmoothingGroups |= trimmed(rest) != "0" && trimmed(rest) != "off";

@@ -26,8 +26,8 @@ struct ObjOutline {
   std::vector<std::string> libraries;  ///< what follows each "mtllib": one name with blanks, or several names
   bool hasSmoothingGroups = false;
   bool hasVertices = false;
-  std::string
-      unreadable;  ///< first vertex, normal or texture coordinate of too few words, or of some that are no numbers
+  // The first line of each that has words that are no numbers, or too few.
+  std::string unreadableVertex, unreadableAttribute;
 };
 
 /// Reads what must be known before the faces, and puts blanks in place of comments after faces.
