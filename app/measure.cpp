@@ -193,10 +193,9 @@ std::optional<MeasureReference> madeReference(Work& work, const Scene& scene, st
   return reference;
 }
 
-/// Whether the folder's reference is the one that the command asks for.
+/// Whether nothing finer is asked for than the folder's reference. Of files only their pixels tell: prepareCase().
 bool isAsked(const MeasureReference& reference, const MeasureOptions& options) {
-  if (options.reference) return reference.file == *options.reference;
-  return !options.referencePasses || reference.passes >= *options.referencePasses;
+  return !options.reference && (!options.referencePasses || reference.passes >= *options.referencePasses);
 }
 
 bool hasRuns(const MeasureResults& results, std::size_t caseIndex) {
@@ -205,27 +204,39 @@ bool hasRuns(const MeasureResults& results, std::size_t caseIndex) {
   });
 }
 
-/// The reference that the case's runs are compared with: of the folder, if it has one.
+/// The reference that the case's runs are compared with: of the folder, if it has one and no finer one is asked for. Every
+/// run that is there was judged by one that was fine enough for it; only a file may hold anything.
 bool prepareCase(Work& work, const Scene& scene, std::size_t index) {
   CaseRecord& record = work.results.cases[index];
   const std::string name = work.results.plan.cases[index].name + ".reference";
+  const fs::path kept = work.image(name + ".exr");
   const RenderSettings& settings = work.options.picture.settings;
-  const bool asked = record.reference && isAsked(*record.reference, work.options);
-  if (record.reference && !asked && hasRuns(work.results, index)) {
-    throw InputError(work.options.reference ? "--reference" : "--reference-spp",
-                     "runs in " + work.options.folder.string() + " were judged by " + record.reference->file.string() +
-                         "; leave the option out, or choose another folder");
-  }
-  if (asked && fs::exists(work.image(name + ".exr"))) {
-    record.reference->picture = readReference(work.image(name + ".exr"), settings).picture;
+  const auto takeKept = [&] { record.reference->picture = readReference(kept, settings).picture; };
+  const bool isKept = record.reference && fs::exists(kept);
+  if (isKept && isAsked(*record.reference, work.options)) {
+    takeKept();
     return true;
   }
+  const bool judgedByFile = isKept && hasRuns(work.results, index) && record.reference->passes == 0;
   if (work.options.reference) {
-    record.reference = readReference(*work.options.reference, settings);
+    MeasureReference given = readReference(*work.options.reference, settings);
+    if (isKept && hasRuns(work.results, index)) {
+      takeKept();
+      if (!std::equal(given.picture.begin(), given.picture.end(), record.reference->picture.begin())) {
+        throw InputError("--reference", "runs in " + work.options.folder.string() +
+                                            " were judged by another picture; leave it out, or choose another folder");
+      }
+      return true;
+    }
+    record.reference = std::move(given);
     if (work.options.runs < 2) {
       work.console.warn("with a single run nothing is known of the error of " + work.options.reference->string() +
                         "; below it no error can be measured");
     }
+  } else if (judgedByFile) {
+    throw InputError("--reference-spp", "runs in " + work.options.folder.string() + " were judged by " +
+                                            record.reference->file.string() +
+                                            "; leave it out, or choose another folder");
   } else {
     record.reference = madeReference(work, scene, index);
   }

@@ -36,7 +36,7 @@ std::string_view gltfJson(std::span<const std::byte> file, const std::string& na
     constexpr std::string_view kBeforeAnObject = " \t\r\n\xEF\xBB\xBF";  // the last three: a byte order mark
     const std::size_t first = text.find_first_not_of(kBeforeAnObject);
     if (first == std::string_view::npos || text[first] != '{')
-      throw InputError(name, "is no glTF file, neither JSON nor binary; export the file again");
+      throw InputError(name, "is no glTF file; export the scene again");
     return text;
   }
   if (file.size() < kHeaderBytes + kChunkHeaderBytes)

@@ -27,7 +27,7 @@ void forEachLine(std::string_view text, const Visit& visit) {
 }
 
 bool isNumber(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error != std::errc::invalid_argument && end == word.data() + word.size();  // one out of range is a number
@@ -52,13 +52,20 @@ std::string withThreeNumbers(std::string_view map) {
   return plain;
 }
 
-/// Whether there are at least so many words before a comment, and all of them are numbers.
-bool areNumbers(std::string_view words, int least) {
+struct Numbers {
+  int count = 0;  ///< of words before a comment
+  bool areNumbers = true, areFinite = true;
+};
+
+Numbers readNumbers(std::string_view words) {
   words = words.substr(0, words.find('#'));
-  int count = 0;
-  std::string_view word = takeWord(words);
-  for (; isNumber(word); word = takeWord(words)) ++count;
-  return word.empty() && count >= least;
+  Numbers numbers;
+  for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
+    ++numbers.count;
+    numbers.areNumbers &= isNumber(word);
+    numbers.areFinite &= word.find_first_of("nN") == std::string_view::npos;  // of nan and inf
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -110,8 +117,10 @@ ObjOutline readOutline(std::span<char> obj) {
     }
     if (keyword == "v" || keyword == "vn" || keyword == "vt") {
       outline.hasVertices |= keyword == "v";
-      std::string& unreadable = keyword == "v" ? outline.unreadableVertex : outline.unreadableAttribute;
-      if (unreadable.empty() && !areNumbers(rest, keyword == "vt" ? 1 : 3)) unreadable = line;
+      const Numbers numbers = readNumbers(rest);
+      const bool isWhole = numbers.areNumbers && numbers.areFinite && numbers.count >= (keyword == "vt" ? 1 : 3);
+      std::string& first = keyword == "v" && !numbers.areNumbers ? outline.unreadable : outline.doubtful;
+      if (!isWhole && first.empty()) first = line;
     }
     if (keyword == "mtllib") outline.libraries.emplace_back(unquoted(rest));
     if (keyword == "s") outline.hasSmoothingGroups |= trimmed(rest) != "0" && trimmed(rest) != "off";

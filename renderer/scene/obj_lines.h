@@ -26,8 +26,9 @@ struct ObjOutline {
   std::vector<std::string> libraries;  ///< what follows each "mtllib": one name with blanks, or several names
   bool hasSmoothingGroups = false;
   bool hasVertices = false;
-  // The first line of each that has words that are no numbers, or too few.
-  std::string unreadableVertex, unreadableAttribute;
+  std::string unreadable;  ///< first vertex with a word that is no number
+  std::string
+      doubtful;  ///< first other vertex, normal or texture coordinate of such words, NaN, infinities, or too few
 };
 
 /// Reads what must be known before the faces, and puts blanks in place of comments after faces.

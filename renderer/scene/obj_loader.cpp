@@ -264,13 +264,11 @@ SceneDraft loadObj(const std::filesystem::path& file, const LoadLimits& limits) 
   joinContinuedLines(text);
   const ObjOutline outline = readOutline(text);
   if (!outline.hasVertices) throw InputError(draft.name, "has no vertices; it is no OBJ file, or an empty one");
-  const auto unreadable = [](const std::string& line) {
-    return printable(line) + ": has words that are no numbers, or too few";
-  };
-  if (!outline.unreadableVertex.empty())
-    throw InputError(draft.name, unreadable(outline.unreadableVertex) + "; export the file again");
-  if (!outline.unreadableAttribute.empty())
-    warnOnce(draft.scene, unreadable(outline.unreadableAttribute) + "; surfaces there may look wrong");
+  if (!outline.unreadable.empty())
+    throw InputError(draft.name,
+                     printable(outline.unreadable) + ": has words that are no numbers; export the file again");
+  if (!outline.doubtful.empty())
+    warnOnce(draft.scene, printable(outline.doubtful) + ": is not read as it stands; surfaces there may look wrong");
   for (const std::string& names : outline.libraries) reader.readLibraries(names);
 
   tinyobj::callback_t callbacks;

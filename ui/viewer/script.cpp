@@ -62,7 +62,7 @@ void checkAction(const ScriptAction& action, const std::string& place) {
   for (const Verb& verb : kVerbs) {
     if (verb.name != action.words[0]) continue;
     if (action.words.size() == verb.words) {
-      if (verb.name == "screenshot" && !action.words[1].ends_with(".png")) {
+      if (verb.name == "screenshot" && lowerExtension(action.words[1]) != ".png") {
         throw InputError(place, "'" + action.words[1] + "' does not end in .png, as a screenshot does");
       }
       return;
@@ -363,6 +363,7 @@ void ScriptPlayer::perform(const ScriptAction& action, Stage& stage) {
   } else if (words[0] == "key") {
     press(action, stage, words[1]);
   } else if (words[0] == "pick") {
+    waitUntil(action, stage, [&] { return stage.viewer.settled(); });
     const std::shared_ptr<const Snapshot> picture = stage.viewer.session().snapshot();
     const Vec2 pixel = at(1);
     if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(picture->width) &&
