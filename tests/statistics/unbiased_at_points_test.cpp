@@ -156,18 +156,20 @@ TEST_P(QuadLight, GivesTheSameLightHoweverItIsSplit) {
   std::vector<double> references;
   references.reserve(receivers.size());
   for (const Receiver& receiver : receivers) references.push_back(referenceReflected(fine, receiver));
-  // 2, 32 and 10,000 triangles; a strategy of O(N) cannot have the last on every change, nor as many samples of it at night:
-  // 65,536 of each receiver take proportional more than an hour.
-  const std::size_t atNight = GetParam().strategy == Strategy::kProportional ? 4'096 : 65'536;
+  // 2, 32 and 10,000 triangles; a strategy of O(N) cannot have the last on every change. Nor can it, or one that finds a cut
+  // at every point, have as many samples of them at night: 65,536 at each point take more than an hour.
+  const Strategy strategy = GetParam().strategy;
+  const bool isSlow = strategy == Strategy::kProportional || strategy == Strategy::kPointCut;
+  const std::size_t ofFineAtNight = isSlow ? 4'096 : 65'536;
   for (const auto& [columns, rows] :
        {std::pair(1, 1), std::pair(4, 4), std::pair(static_cast<int>(byDepth(8, 100)), 50)}) {
     SCOPED_TRACE(std::to_string(2 * columns * rows) + " triangles");
     const Scene scene = quad(columns, rows);
-    const PointEstimator estimator(scene, GetParam().strategy, GetParam().settings);
+    const PointEstimator estimator(scene, strategy, GetParam().settings);
     PointTests tests(3 * receivers.size());
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       const bool isFine = columns * rows > 100;
-      const std::size_t samples = sampleShare(byDepth(isFine ? 10'000 : 100'000, isFine ? atNight : 65'536));
+      const std::size_t samples = sampleShare(byDepth(isFine ? 10'000 : 100'000, isFine ? ofFineAtNight : 65'536));
       tests.add(estimator.reflected(receivers[i], samples, hashOf(6, columns, i)), references[i]);
     }
     tests.finish(receivers.size() / 2);
