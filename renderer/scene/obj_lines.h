@@ -26,9 +26,10 @@ struct ObjOutline {
   std::vector<std::string> libraries;  ///< what follows each "mtllib": one name with blanks, or several names
   bool hasSmoothingGroups = false;
   bool hasVertices = false;
-  std::string unreadable;  ///< first vertex with a word that is no number
-  std::string
-      doubtful;  ///< first other vertex, normal or texture coordinate of such words, NaN, infinities, or too few
+  /// First vertex with a word that is no number.
+  std::string unreadable;
+  /// First other vertex, normal or texture coordinate that is not read as it stands: such words, NaN, infinity, too few.
+  std::string doubtful;
 };
 
 /// Reads what must be known before the faces, and puts blanks in place of comments after faces.
