@@ -122,6 +122,7 @@ void renderToEnd(Viewer& viewer, Window& window, std::uint64_t passes) {
 int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
   requireDistinct({{"--output", options.output}, {"--output", numbersFile(options.output)}}, inputsOf(options.common));
   const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
+  for (const std::string& warning : scene->warnings) console.warn(warning);
   const RenderSettings& settings = options.common.render.settings;
   const std::unique_ptr<Window> window =
       openWindow(options.common.windowKind.value_or(WindowKind::kEgl), {.size = {settings.width, settings.height}});

@@ -63,6 +63,7 @@ int showViewer(const ViewOptions& options, const Console& console) {
     console.err << "cellcut: " << opened.notice << '\n';
   }
   const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
+  for (const std::string& warning : scene->warnings) console.warn(warning);
   ViewerOptions viewerOptions = cellcut::viewerOptions(options.common, *scene);
   viewerOptions.record = options.record;
   viewerOptions.recentFiles = recentFilesPath(options.headless);  // a script's scenes are no person's

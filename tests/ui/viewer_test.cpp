@@ -229,6 +229,14 @@ TEST_F(ViewerTest, ABadSceneIsRefusedAndTheOldOneGoesOn) {
   EXPECT_EQ(viewer_->session().snapshot()->passes, 2u);
 }
 
+TEST_F(ViewerTest, WarningsOfASceneAreShownUntilTheyAreDismissed) {
+  std::ofstream(folder_ / "odd.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 x\nf 1 2 3\n";
+  play("wait idle\ndrop odd.obj\nwait idle\n");
+  EXPECT_THAT(viewer_->notice(), HasSubstr("vn 0 0 x: is not read as it stands"));
+  play("click Dismiss\n");
+  EXPECT_EQ(viewer_->notice(), "");
+}
+
 TEST_F(ViewerTest, APictureOfAnyCaseIsAReference) {
   writeExr(folder_ / "REFERENCE.EXR", {2, 1, {{"", {"R", "G", "B"}, {1, 2, 3, 4, 5, 6}}}, {}});
   play("drop REFERENCE.EXR\nwait idle\n");

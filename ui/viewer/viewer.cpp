@@ -48,6 +48,7 @@ Viewer::Viewer(Window& window, std::shared_ptr<const Scene> scene, SceneLoader l
   if (options_.record) recorder_ = std::make_unique<ScriptRecorder>(*options_.record);
   if (!options_.file.empty()) recent_.add(options_.file);
   snapshot_ = session_.snapshot();
+  showWarnings();
 }
 
 Viewer::~Viewer() = default;

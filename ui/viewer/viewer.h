@@ -107,6 +107,7 @@ class Viewer {
   void drawFrame(double seconds);
   void takeNews();
   void takeScene();
+  void showWarnings();
   void takeReference();
   void measure();
   void endDuel();

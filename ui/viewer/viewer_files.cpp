@@ -2,6 +2,7 @@
 #include "ui/viewer/is_ready.h"
 #include "ui/viewer/viewer.h"
 
+#include <algorithm>
 #include <ctime>
 
 namespace cellcut {
@@ -39,6 +40,7 @@ void Viewer::takeScene() {
     scene_ = loading_.get();
     options_.file = loadingFile_;
     problem_.clear();
+    showWarnings();
     state_.settings.camera = std::min(state_.settings.camera, scene_->cameras.size() - 1);
     state_.settings.view.reset();
     state_.settings.shownLights.reset();
@@ -54,6 +56,14 @@ void Viewer::takeScene() {
     window_.setTitle("cellcut: " + options_.file.filename().string());
     edited_ = true;
   });
+}
+
+void Viewer::showWarnings() {
+  constexpr std::size_t kMost = 4;  // more would push the panels off the window
+  const std::vector<std::string>& all = scene_->warnings;
+  notice_.clear();
+  for (std::size_t i = 0; i < std::min(all.size(), kMost); ++i) notice_.append(i > 0 ? "\n" : "").append(all[i]);
+  if (all.size() > kMost) notice_.append("\n").append(std::to_string(all.size() - kMost)).append(" more: cellcut info");
 }
 
 void Viewer::openRecent() {
