@@ -23,6 +23,7 @@ std::string describe(RealRange range) {
   std::ostringstream text;
   text << (range.leastExcluded ? "a number above " : "a number of at least ") << range.least;
   if (range.most < std::numeric_limits<double>::max()) text << " and at most " << range.most;
+  if (!range.alsoKnown.empty()) text << ", nor '" << range.alsoKnown << "'";
   return text.str();
 }
 

@@ -18,6 +18,7 @@ struct RealRange {
   double least = std::numeric_limits<double>::lowest();
   double most = std::numeric_limits<double>::max();
   bool leastExcluded = false;
+  std::string_view alsoKnown = "";  ///< a word that the caller knows, for the refusal
 };
 
 /// Decimal digits only: no sign, no base prefix, no separators.

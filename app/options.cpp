@@ -38,7 +38,7 @@ PixelSampling parseSampler(const std::string& name) {
 double parsePunctualScale(const std::string& text) {
   // Lumen per watt at 555 nm: what Blender's exporter multiplies its lights by (glTF wants candela).
   if (text == "blender") return 1.0 / 683.0;
-  return parseReal("--punctual-scale", text, {.least = 0});
+  return parseReal("--punctual-scale", text, {.least = 0, .alsoKnown = "blender"});
 }
 
 int parseSide(const std::string& text) {
@@ -183,7 +183,11 @@ namespace {
 
 void addSceneOptions(CLI::App& verb, RenderOptions& o) {
   addText(
-      verb, "--camera", "NAME|INDEX", [&o](const std::string& t) { o.camera = t; },
+      verb, "--camera", "NAME|INDEX",
+      [&o](const std::string& t) {
+        if (t.empty()) throw InputError("--camera", "names none; leave it out for the first");
+        o.camera = t;
+      },
       "A camera of the scene by its name or its number from 0 (default 0)");
   EnvironmentOptions& e = o.environment;
   CLI::Option* file = addText(

@@ -119,6 +119,20 @@ void renderToEnd(Viewer& viewer, Window& window, std::uint64_t passes) {
   viewer.frame(kFrameSeconds);
 }
 
+/// What does not fit the rendering is refused before it begins.
+/// \param viewer  has its size by a first frame
+void requireFits(const ScreenshotOptions& options, Viewer& viewer) {
+  const RenderSettings& settings = viewer.state().settings;
+  const std::string size = std::to_string(settings.width) + " x " + std::to_string(settings.height);
+  if (viewer.reference().picture && !viewer.referenceFits()) {
+    throw InputError("--reference", "has other pixels than the rendering, which has " + size +
+                                        "; choose --size, and --no-ui for a picture of that size");
+  }
+  if (options.pick && (options.pick->x >= settings.width || options.pick->y >= settings.height)) {
+    throw InputError("--pick", "the picture has " + size + " pixels");
+  }
+}
+
 int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
   requireDistinct({{"--output", options.output}, {"--output", numbersFile(options.output)}}, inputsOf(options.common));
   const std::shared_ptr<const Scene> scene = loadViewerScene(options.common);
@@ -136,30 +150,20 @@ int takeScreenshot(const ScreenshotOptions& options, const Console& console) {
   const std::uint64_t passes = state.passLimit.value_or(1);
 
   Viewer viewer(*window, scene, sceneLoader(options.common), viewerOptions);
+  viewer.frame(kFrameSeconds);
+  requireFits(options, viewer);
   renderToEnd(viewer, *window, passes);
   if (options.split) {
     viewer.storePicture();
     viewer.state().settings.strategy = options.split->first;
     renderToEnd(viewer, *window, passes);
   }
-  const std::shared_ptr<const Snapshot> snapshot = viewer.session().snapshot();
-  if (!viewer.referenceFits() && viewer.reference().picture) {
-    throw InputError("--reference", "has other pixels than the rendering, which has " +
-                                        std::to_string(snapshot->width) + " x " + std::to_string(snapshot->height) +
-                                        "; choose --size, and --no-ui for a picture of that size");
-  }
-  if (options.pick) {
-    if (options.pick->x >= snapshot->width || options.pick->y >= snapshot->height) {
-      throw InputError("--pick", "the picture has " + std::to_string(snapshot->width) + " x " +
-                                     std::to_string(snapshot->height) + " pixels");
-    }
-    viewer.state().pick = options.pick;
-  }
+  if (options.pick) viewer.state().pick = options.pick;
   viewer.refreshOverlay();
   for (int i = 0; i < kOverlayFrames; ++i) viewer.frame(kFrameSeconds);
   writeBytes(options.output, encodePng(viewer.picture()));
   const std::filesystem::path numbers = numbersFile(options.output);
-  writeText(numbers, jsonText(numbersOf(viewer, options.overlay, *snapshot), 2) + "\n");
+  writeText(numbers, jsonText(numbersOf(viewer, options.overlay, *viewer.session().snapshot()), 2) + "\n");
   console.err << "wrote " << options.output.string() << " and " << numbers.string() << '\n';
   return kDone;
 }

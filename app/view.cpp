@@ -69,7 +69,7 @@ int showViewer(const ViewOptions& options, const Console& console) {
   viewerOptions.recentFiles = recentFilesPath(options.headless);  // a script's scenes are no person's
   Viewer viewer(*opened.window, scene, sceneLoader(options.common), std::move(viewerOptions));
   if (options.script) {
-    ScriptPlayer(*options.script, std::move(actions), std::filesystem::current_path()).play(viewer, *opened.window);
+    playScript(actions, std::filesystem::current_path(), viewer, *opened.window);
   } else {
     FrameLoop loop(viewer, *opened.window);
     while (!opened.window->shouldClose()) loop.step();

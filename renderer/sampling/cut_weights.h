@@ -89,7 +89,4 @@ inline float meanDistance(float distance, float rho) {
 /// \return Σ of blockSums, first to last
 double nearWeights(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
 
-/// The same without SIMD: the definition, for tests.
-double nearWeightsScalar(const BlockedFloats& near, const Vec3& p, const Vec3& n, float* weights, float* blockSums);
-
 }  // namespace cellcut

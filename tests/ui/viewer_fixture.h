@@ -44,7 +44,7 @@ class ViewerTest : public testing::Test {
   void play(const std::string& text) {
     const std::filesystem::path file = folder_ / "script.txt";
     std::ofstream(file) << text;
-    ScriptPlayer(file, readScript(file), folder_.path()).play(*viewer_, *window_);
+    playScript(readScript(file), folder_.path(), *viewer_, *window_);
   }
   std::string refusalOf(const std::string& text) {
     return test::refusalOf([&] { play(text); });

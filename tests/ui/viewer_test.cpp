@@ -108,11 +108,45 @@ TEST_F(ViewerTest, TheOverlayOfErrorsSaysWhatItsErrorsAre) {
   EXPECT_EQ(viewer_->overlay()->title, "error");
 }
 
-TEST_F(ViewerTest, ASeedBeyondTheSliderIsShownAsItIs) {
+TEST_F(ViewerTest, AnySeedOf64BitsIsShownAndSet) {
   ViewerOptions options;
   options.state.settings.seed = (std::uint64_t{1} << 63) + 5;
   open(std::move(options));
-  play("expect Seed 9223372036854775813\n");
+  play("wait idle\n");
+  ASSERT_NE(viewer_->widgets().find("Seed"), nullptr);
+  EXPECT_EQ(viewer_->widgets().find("Seed")->value, "9223372036854775813");
+  play("set Seed 18446744073709551615\nwait idle\n");
+  EXPECT_EQ(viewer_->state().settings.seed, ~std::uint64_t{0});
+  play("set Seed 7\nwait idle\n");
+  EXPECT_EQ(viewer_->state().settings.seed, 7u);
+}
+
+TEST_F(ViewerTest, WhatLiesOverAPictureGoesWithItWhenTheOtherIsShown) {
+  const auto other = [this] {
+    window_->post(KeyChange{Key::kB, true});
+    for (int i = 0; i < 2; ++i) {
+      window_->pollEvents();
+      viewer_->frame(1.0 / 60);
+    }
+    const ImageRgba8 picture = viewer_->picture();
+    window_->post(KeyChange{Key::kB, false});
+    window_->pollEvents();
+    viewer_->frame(1.0 / 60);
+    const PixelRect area = viewer_->imageArea();
+    std::vector<Rgba8> pixels;
+    for (int y = 0; y < static_cast<int>(area.size.y); ++y) {
+      for (int x = 0; x < static_cast<int>(area.size.x); ++x) {
+        pixels.push_back(picture.at(x + static_cast<int>(area.origin.x), y + static_cast<int>(area.origin.y)));
+      }
+    }
+    return pixels;
+  };
+  play("wait idle\nmove 2 2\n");
+  viewer_->storePicture();
+  const std::vector<Rgba8> plain = other();
+  play("set Show cut-size\nwait idle\npick 90 350\nwait idle\nmove 2 2\n");
+  ASSERT_TRUE(viewer_->state().pick);
+  EXPECT_TRUE(other() == plain);
 }
 
 TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
@@ -331,7 +365,7 @@ TEST_F(ViewerTest, ARecordedScriptReplayedGivesTheSameState) {
   const ViewerState first = viewer_->state();
   open({});
   EXPECT_FALSE(first.settings.view && viewer_->state().settings.view);
-  ScriptPlayer(record, readScript(record), folder_.path()).play(*viewer_, *window_);
+  playScript(readScript(record), folder_.path(), *viewer_, *window_);
   const ViewerState& second = viewer_->state();
   EXPECT_EQ(first.settings.strategy, second.settings.strategy);
   EXPECT_EQ(first.settings.sampler, second.settings.sampler);

@@ -101,12 +101,7 @@ ViewerCommand drawRenderPanel(Widgets& widgets, const ViewerFacts& facts, Viewer
                  "Solo and mute of the inspector; what is seen of the others directly stays");
     if (widgets.button("All lights", "Show every light again (N)")) command = ViewerCommand::kAllLights;
   }
-  if (s.seed > std::numeric_limits<int>::max()) {
-    widgets.text("Seed", std::to_string(s.seed), "Of --seed; beyond what a slider holds");
-  } else {
-    int seed = static_cast<int>(s.seed);
-    if (widgets.slider("Seed", seed, 0, 99, "Another seed, another noise")) s.seed = static_cast<std::uint64_t>(seed);
-  }
+  widgets.whole("Seed", s.seed, "Another seed, another noise");
   limitField(widgets, "Stop at spp", state.passLimit, "Samples per pixel after which rendering rests");
   limitField(widgets, "Stop at s", state.timeLimit, "Seconds after which rendering rests");
   limitField(widgets, "Stop at REL", state.noiseLimit,

@@ -24,58 +24,26 @@
 #include "ui/viewer/viewer.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace cellcut {
 
 struct ScriptAction {
-  int line;  ///< from 1
+  std::string place;  ///< "FILE:LINE", lines from 1
   std::vector<std::string> words;
 };
 
 /// \throws InputError naming file, line and remedy; as readFile(), and for scripts of more than a megabyte
 std::vector<ScriptAction> readScript(const std::filesystem::path& file);
 
-class ScriptPlayer {
- public:
-  /// \param folder  that files in the script are meant from
-  ScriptPlayer(std::filesystem::path name, std::vector<ScriptAction> actions, std::filesystem::path folder);
-
-  /// Plays the script to its end, frame by frame.
-  /// \throws InputError naming the line when a label is not there, an expectation fails, samples are waited for that a
-  /// limit keeps from coming, or waiting takes longer than ten minutes
-  void play(Viewer& viewer, Window& window);
-
- private:
-  struct Stage {
-    Viewer& viewer;
-    Window& window;
-  };
-  void perform(const ScriptAction& action, Stage& stage);
-  void frames(Stage& stage, int count) const;
-  void clickAt(Stage& stage, Vec2 position, MouseButton button = MouseButton::kLeft) const;
-  void press(const ScriptAction& action, Stage& stage, const std::string& keys) const;
-  void type(Stage& stage, const std::string& text) const;
-  void set(const ScriptAction& action, Stage& stage) const;
-  /// Draws frames with the news that come in.
-  void waitUntil(const ScriptAction& action, Stage& stage, const std::function<bool()>& done) const;
-  void wait(const ScriptAction& action, Stage& stage) const;
-  void expect(const ScriptAction& action, Stage& stage) const;
-  void drag(const ScriptAction& action, Stage& stage) const;
-  void paste(const ScriptAction& action, Stage& stage) const;
-  /// Where it can be clicked: waits for it and scrolls to it.
-  WidgetItem item(const ScriptAction& action, Stage& stage, const std::string& label) const;
-  /// The widget once it stays where it is.
-  WidgetItem still(const ScriptAction& action, Stage& stage, const std::string& label) const;
-  [[noreturn]] void failMissing(const ScriptAction& action, const Stage& stage, const std::string& label) const;
-  float number(const ScriptAction& action, std::size_t word) const;
-  Vec2 position(const ScriptAction& action, std::size_t word) const;
-  [[noreturn]] void fail(const ScriptAction& action, const std::string& problem) const;
-
-  std::filesystem::path name_;
-  std::vector<ScriptAction> actions_;
-  std::filesystem::path folder_;
-};
+/// Plays the actions to their end, frame by frame.
+/// \param actions  of readScript()
+/// \param folder  that files in them are meant from
+/// \throws InputError naming the line when a label is not there, an expectation fails, samples are waited for that a
+/// limit keeps from coming, or waiting takes longer than ten minutes
+void playScript(std::span<const ScriptAction> actions, const std::filesystem::path& folder, Viewer& viewer,
+                Window& window);
 
 }  // namespace cellcut

@@ -184,8 +184,7 @@ void Viewer::drawFrame(double seconds) {
   if (!view_.imageSize().empty()) {
     ImageViewSettings display = state_.display;
     display.overlayOpacity = 1;  // is in the overlay's own alpha
-    if (!stored_) display.split = 1;
-    if (flip_ && stored_) display.split = 0;
+    display.split = displaySplit();
     // A preview has fewer pixels than the rendering: it is stretched over the same area.
     ImagePlacement shown = placement_;
     shown.scale *= static_cast<float>(rendered.width) / static_cast<float>(view_.imageSize().width);

@@ -137,6 +137,8 @@ class Viewer {
   void focusAt(const Vec2& position);
   void applyEdits();
   void followSize();
+  /// As ImageViewSettings::split, with B held down.
+  float displaySplit() const;
   bool overlayWanted() const;
   bool overlayIsCurrent() const;
   void requestOverlay();

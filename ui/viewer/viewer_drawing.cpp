@@ -17,6 +17,11 @@ bool sameOverlay(const ViewerState& a, const ViewerState& b) {
 
 }  // namespace
 
+float Viewer::displaySplit() const {
+  if (!stored_) return 1;
+  return flip_ ? 0 : state_.display.split;
+}
+
 bool Viewer::overlayWanted() const {
   return state_.overlay.overlay != Overlay::kNone || state_.overlay.grid || state_.pick ||
          state_.overlay.slice.axis != SliceAxis::kNone;
@@ -77,6 +82,7 @@ void Viewer::showOverlay() {
 }
 
 void Viewer::drawOverPicture() {
+  if (displaySplit() == 0) return;  // all of it is of the first picture
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   if (overlay_ && overlay_->overlay != Overlay::kNone && !overlay_->values.empty()) {
     drawLegend(*overlay_, state_.overlay, area_, gui_.scale());
@@ -89,9 +95,8 @@ void Viewer::drawOverPicture() {
     list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_BLACK, 0, 3);
     list->AddCircle(ImVec2(at.x, at.y), r, IM_COL32_WHITE, 0, 1.5f);
   }
-  if (stored_ && !flip_) {
-    const float x =
-        placement_.origin.x + placement_.scale * static_cast<float>(snapshot_->width) * state_.display.split;
+  if (stored_) {
+    const float x = placement_.origin.x + placement_.scale * static_cast<float>(snapshot_->width) * displaySplit();
     const float height = placement_.scale * static_cast<float>(snapshot_->height);
     list->AddLine(ImVec2(x, placement_.origin.y), ImVec2(x, placement_.origin.y + height),
                   IM_COL32(255, 255, 255, 160));

@@ -109,6 +109,18 @@ bool Widgets::slider(const char* label, int& value, int least, int most, const c
   return edited;
 }
 
+bool Widgets::whole(const char* label, std::uint64_t& value, const char* tooltip) {
+  nameOfField(label);
+  static_assert(sizeof(std::uint64_t) == sizeof(ImU64));
+  const std::uint64_t step = 1;
+  const bool edited = ImGui::InputScalar(hidden(label).c_str(), ImGuiDataType_U64, &value, &step, nullptr, nullptr,
+                                         ImGuiInputTextFlags_EnterReturnsTrue);
+  remember(WidgetItem::Kind::kNumber, label, std::to_string(value));
+  explain(tooltip);
+  if (edited) changed(label, std::to_string(value));
+  return edited;
+}
+
 bool Widgets::number(const char* label, double& value, const char* tooltip) {
   nameOfField(label);
   double entered = value;

@@ -47,6 +47,8 @@ class Widgets {
   bool checkbox(const char* label, bool& value, const char* tooltip = nullptr);
   bool slider(const char* label, float& value, float least, float most, const char* tooltip, bool logarithmic = false);
   bool slider(const char* label, int& value, int least, int most, const char* tooltip, bool logarithmic = false);
+  /// A whole number to type, or to step by one.
+  bool whole(const char* label, std::uint64_t& value, const char* tooltip);
   /// A field for a number of its own; 0 means none.
   bool number(const char* label, double& value, const char* tooltip);
   /// \return whether another index was chosen

@@ -7,6 +7,7 @@
 #include "renderer/scene/recipes/recipe.h"
 #include "tests/support/command_run.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/hostile_budget.h"
 #include "tests/support/temporary_directory.h"
 
 #include <algorithm>
@@ -318,6 +319,24 @@ TEST_F(VerbsOnAScene, NoOutputReplacesAnInputOrAnotherOutput) {
   EXPECT_FALSE(std::filesystem::exists(path("a.png")));
   EXPECT_TRUE(contents("kinds.glb") == before);
 }
+
+#ifdef CELLCUT_UI
+TEST_F(VerbsOnAScene, AScreenshotOfWhatDoesNotFitIsRefusedBeforeItIsRendered) {
+  writePfm(path("other.pfm"), ImageRgb(4, 2, Vec3(1)));
+  const test::HostileBudget budget("screenshots", 10);
+  const std::vector<std::string> shot{"screenshot", path("kinds.glb"), "-o",    path("a.png"), "--no-ui",
+                                      "--size",     "64x32",           "--spp", "100000000"};
+  const auto with = [&](const std::string& option, const std::string& value) {
+    std::vector<std::string> args = shot;
+    args.insert(args.end(), {option, value});
+    return args;
+  };
+  expectRefused(with("--reference", path("other.pfm")),
+                "--reference: has other pixels than the rendering, which has 64 x 32");
+  expectRefused(with("--pick", "64,0"), "--pick: the picture has 64 x 32 pixels");
+  expectRefused(with("--pick", "0,32"), "--pick: the picture has 64 x 32 pixels");
+}
+#endif
 
 TEST_F(VerbsOnAScene, PictureIsTheSameOnAnyNumberOfThreads) {
   ASSERT_EQ(render("one.pfm", {"--spp", "4", "--threads", "1"}).code, kDone);

@@ -151,6 +151,8 @@ TEST_F(RenderOptionsTest, ValuesOutsideTheirRangesAreRefused) {
   for (const auto& args : refused) {
     EXPECT_THAT(refusalOf(args), HasSubstr(args[0] + ": '")) << args[1];
   }
+  EXPECT_THAT(refusalOf({"--punctual-scale", "Blender"}), HasSubstr("is not a number of at least 0, nor 'blender'"));
+  EXPECT_THAT(refusalOf({"--camera", ""}), HasSubstr("--camera: names none"));
 }
 
 TEST_F(RenderOptionsTest, LargestPictureIsAccepted) {

@@ -3,6 +3,7 @@
 #include "renderer/sampling/cut.h"
 #include "renderer/sampling/descent.h"
 #include "renderer/sampling/facing.h"
+#include "tests/support/near_weights_scalar.h"
 
 #include <array>
 #include <numbers>
@@ -61,7 +62,7 @@ struct Lost {
     alignas(64) std::array<float, kClusterBlock> weights;
     float sum;
     simd += !(nearWeights(cut.near(), c.point.p, c.point.n, weights.data(), &sum) > 0);
-    scalar += !(nearWeightsScalar(cut.near(), c.point.p, c.point.n, weights.data(), &sum) > 0);
+    scalar += !(test::nearWeightsScalar(cut.near(), c.point.p, c.point.n, weights.data(), &sum) > 0);
   }
   void expectNone() const {
     EXPECT_GT(cases, 10'000);

@@ -5,6 +5,7 @@
 #include "renderer/sampling/facing.h"
 #include "renderer/trace/renderer.h"
 #include "tests/support/images.h"
+#include "tests/support/near_weights_scalar.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 #include "tests/support/vectors.h"
@@ -128,7 +129,7 @@ TEST(Cut, SimdWeightsAreTheScalarOnes) {
     alignas(64) std::array<float, 512> simd, scalar;
     std::array<float, 32> simdSums, scalarSums;
     const double sum = nearWeights(cut.near(), p, n, simd.data(), simdSums.data());
-    EXPECT_NEAR(sum, nearWeightsScalar(cut.near(), p, n, scalar.data(), scalarSums.data()), 1e-5 * sum);
+    EXPECT_NEAR(sum, test::nearWeightsScalar(cut.near(), p, n, scalar.data(), scalarSums.data()), 1e-5 * sum);
     for (std::size_t slot = 0; slot < cut.near().blocks() * kClusterBlock; ++slot) {
       // Fused and separate roundings of cosines differ by 2⁻²²; beside the margin of 10⁻⁵ at a horizon that is a few
       // per cent.

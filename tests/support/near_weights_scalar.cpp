@@ -1,7 +1,8 @@
-#include "renderer/lights/light_bounds.h"
-#include "renderer/sampling/cut_weights.h"
+#include "tests/support/near_weights_scalar.h"
 
-namespace cellcut {
+#include "renderer/lights/light_bounds.h"
+
+namespace cellcut::test {
 namespace {
 
 float nearWeight(const BlockedFloats& near, std::size_t i, const Vec3& p, const Vec3& n) {
@@ -45,4 +46,4 @@ double nearWeightsScalar(const BlockedFloats& near, const Vec3& p, const Vec3& n
   return sum;
 }
 
-}  // namespace cellcut
+}  // namespace cellcut::test
