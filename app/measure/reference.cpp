@@ -4,9 +4,9 @@
 #include "app/output.h"
 #include "renderer/base/error.h"
 #include "renderer/base/image_io.h"
-#include "renderer/base/relative_error.h"
 #include "renderer/base/rng.h"
 #include "renderer/base/stopwatch.h"
+#include "renderer/measure/batch_mean.h"
 #include "renderer/trace/renderer.h"
 
 #include <algorithm>
@@ -28,42 +28,10 @@ constexpr std::uint64_t kUnaskedBatchPasses = 32;
 constexpr std::uint64_t kSeed = 0x7265666572656e63ull;  // far from the seeds that people choose
 constexpr std::uint64_t kFormat = 1;                    // of the cache's files
 
-/// Mean of batches and the root of Σ (batch − mean)²; both as 32-bit floats, as they lie on the disk, so that work that was
-/// interrupted ends with the same bits as work that was not.
 struct Batches {
-  std::uint64_t count = 0;
-  ImageRgb mean, deviation;
-  double seconds = 0;
+  BatchMean pictures;
+  double seconds = 0;  ///< that they took
 };
-
-void add(Batches& batches, const ImageRgb& batch, double seconds) {
-  const auto n = static_cast<double>(++batches.count);
-  batches.seconds += seconds;
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const double x = batch[i][c], before = x - batches.mean[i][c];
-      const double mean = batches.mean[i][c] + before / n, deviation = batches.deviation[i][c];
-      batches.mean[i][c] = static_cast<float>(mean);
-      batches.deviation[i][c] = static_cast<float>(std::sqrt(deviation * deviation + before * (x - mean)));
-    }
-  }
-}
-
-/// What the mean's noise adds to a relMSE that is measured against it, from the standard errors of its pixels: relative to
-/// itself, as all that is measured.
-double ownError(const Batches& batches) {
-  const double mean = meanOfChannels(batches.mean);
-  const auto n = static_cast<double>(batches.count);
-  double sum = 0;
-  for (std::size_t i = 0; i < batches.mean.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const double value = batches.mean[i][c], deviation = batches.deviation[i][c];
-      if (deviation > 0)
-        sum += deviation * deviation / (n * (n - 1)) / (value * value + kRelativeEpsilon * mean * mean);
-    }
-  }
-  return sum / (3 * static_cast<double>(batches.mean.size()));
-}
 
 std::uint64_t batchPassesOf(const ReferenceRequest& request) {
   if (!request.passes) return kUnaskedBatchPasses;
@@ -86,7 +54,7 @@ class BatchFiles {
 
   /// The largest number of batches up to `most` that is there and can be read.
   Batches load(std::uint64_t most, const RenderSettings& settings) const {
-    Batches empty{0, ImageRgb(settings.width, settings.height), ImageRgb(settings.width, settings.height), 0};
+    const Batches empty{BatchMean(settings.width, settings.height)};
     for (std::uint64_t count : counts()) {
       if (count > most) continue;
       if (auto batches = read(count, empty)) return *batches;
@@ -96,13 +64,12 @@ class BatchFiles {
 
   /// \throws std::runtime_error
   void store(const Batches& batches) const {
-    const int width = batches.mean.width(), height = batches.mean.height();
-    ImageRgb both(width, 2 * height);
-    std::copy(batches.mean.begin(), batches.mean.end(), both.begin());
-    std::copy(batches.deviation.begin(), batches.deviation.end(),
-              both.begin() + static_cast<std::ptrdiff_t>(batches.mean.size()));
-    writeText(seconds(batches.count), std::to_string(batches.seconds) + "\n");
-    writePicture({pixels(batches.count), PictureKind::kPfm}, both);
+    const auto& [count, mean, deviation] = batches.pictures;
+    ImageRgb both(mean.width(), 2 * mean.height());
+    std::copy(mean.begin(), mean.end(), both.begin());
+    std::copy(deviation.begin(), deviation.end(), both.begin() + static_cast<std::ptrdiff_t>(mean.size()));
+    writeText(seconds(count), std::to_string(batches.seconds) + "\n");
+    writePicture({pixels(count), PictureKind::kPfm}, both);
   }
   void remove(std::uint64_t count) const {
     std::error_code ignored;  // a file too many does no harm
@@ -131,14 +98,15 @@ class BatchFiles {
   std::optional<Batches> read(std::uint64_t count, Batches batches) const {
     try {
       const ImageRgb both = readImage(pixels(count));
-      if (both.width() != batches.mean.width() || both.height() != 2 * batches.mean.height()) return std::nullopt;
-      const auto middle = both.begin() + static_cast<std::ptrdiff_t>(batches.mean.size());
-      std::copy(both.begin(), middle, batches.mean.begin());
-      std::copy(middle, both.end(), batches.deviation.begin());
+      auto& [total, mean, deviation] = batches.pictures;
+      if (both.width() != mean.width() || both.height() != 2 * mean.height()) return std::nullopt;
+      const auto middle = both.begin() + static_cast<std::ptrdiff_t>(mean.size());
+      std::copy(both.begin(), middle, mean.begin());
+      std::copy(middle, both.end(), deviation.begin());
       const std::vector<std::byte> text = readFile(seconds(count), 100);
       const char* begin = reinterpret_cast<const char*>(text.data());
       std::from_chars(begin, begin + text.size(), batches.seconds);
-      batches.count = count;
+      total = count;
       return batches;
     } catch (const InputError&) {
       return std::nullopt;  // damaged, or taken away by another process: made again
@@ -150,8 +118,8 @@ class BatchFiles {
 };
 
 bool suffices(const ReferenceRequest& request, const Batches& batches, std::uint64_t batchPasses) {
-  if (batches.count < kFewestBatches) return false;
-  if (request.passes) return batches.count * batchPasses >= *request.passes;
+  if (batches.pictures.count < kFewestBatches) return false;
+  if (request.passes) return batches.pictures.count * batchPasses >= *request.passes;
   return batches.seconds >= kReferenceFactor * request.seconds;
 }
 
@@ -163,9 +131,9 @@ std::uint64_t mostBatches(const ReferenceRequest& request, std::uint64_t batchPa
 /// Passes that the whole will take.
 std::uint64_t aim(const ReferenceRequest& request, const Batches& batches, std::uint64_t batchPasses) {
   if (request.passes) return mostBatches(request, batchPasses) * batchPasses;
-  const double needed = batches.seconds > 0
-                            ? static_cast<double>(batches.count) * kReferenceFactor * request.seconds / batches.seconds
-                            : 0;
+  const double needed = batches.seconds > 0 ? static_cast<double>(batches.pictures.count) * kReferenceFactor *
+                                                  request.seconds / batches.seconds
+                                            : 0;
   return batchPasses * std::max(kFewestBatches, static_cast<std::uint64_t>(std::ceil(needed)));
 }
 
@@ -195,24 +163,26 @@ std::optional<MeasureReference> makeReference(const ReferenceRequest& request, c
   const std::uint64_t batchPasses = batchPassesOf(request);
   const BatchFiles files(request, batchPasses);
   Batches batches = files.load(mostBatches(request, batchPasses), settings);
-  const std::uint64_t found = batches.count;
+  const std::uint64_t found = batches.pictures.count;
   while (!suffices(request, batches, batchPasses)) {
-    settings.seed = hashOf(kSeed, batches.count);
+    settings.seed = hashOf(kSeed, batches.pictures.count);
     Renderer renderer(request.scene, settings);
     double seconds = 0;
     while (renderer.film().passes() < batchPasses) {
       const Stopwatch pass;
       if (!renderer.renderPass(cancel)) return std::nullopt;
       seconds += pass.seconds();
-      onPass(batches.count * batchPasses + renderer.film().passes(), batches.seconds + seconds,
+      onPass(batches.pictures.count * batchPasses + renderer.film().passes(), batches.seconds + seconds,
              aim(request, batches, batchPasses));
     }
-    add(batches, renderer.film().mean(), seconds);
+    batches.pictures.add(renderer.film().mean());
+    batches.seconds += seconds;
     files.store(batches);
-    if (batches.count > found + 1) files.remove(batches.count - 1);
+    if (batches.pictures.count > found + 1) files.remove(batches.pictures.count - 1);
   }
-  return MeasureReference{batches.mean, ownError(batches), batches.count * batchPasses, batches.seconds,
-                          files.pixels(batches.count)};
+  const BatchMean& made = batches.pictures;
+  return MeasureReference{made.mean, made.relmse(), made.count * batchPasses, batches.seconds,
+                          files.pixels(made.count)};
 }
 
 void requireFineReference(const MeasureReference& reference, double smallestRelmse) {

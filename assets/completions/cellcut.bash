@@ -103,10 +103,11 @@ _cellcut() {
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
     _cellcut_words 'view screenshot render measure compare generate info --help --version'
+    _cellcut_view # the word view may be left out
     return
   fi
   case ${COMP_WORDS[1]} in
-    view) _cellcut_view ;;
+    view | -* | *.*) _cellcut_view ;;
     screenshot) _cellcut_screenshot ;;
     render) _cellcut_render ;;
     measure) _cellcut_measure ;;

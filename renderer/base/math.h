@@ -72,26 +72,32 @@ struct Frame {
 };
 
 /// Axis-aligned box; empty until something is added.
-struct Bounds {
-  Vec3 lower{kInfinity};
-  Vec3 upper{-kInfinity};
+template <class Point>
+struct BoundsOf {
+  using Real = typename Point::value_type;
+  Point lower{std::numeric_limits<Real>::infinity()};
+  Point upper{-std::numeric_limits<Real>::infinity()};
 
   bool empty() const { return lower.x > upper.x; }
-  void add(const Vec3& p) {
+  void add(const Point& p) {
     lower = glm::min(lower, p);
     upper = glm::max(upper, p);
   }
-  void add(const Bounds& b) {
+  void add(const BoundsOf& b) {
     lower = glm::min(lower, b.lower);
     upper = glm::max(upper, b.upper);
   }
   /// Bit k says whether coordinate k is the upper one. \pre bits < 8
-  Vec3 corner(unsigned bits) const {
+  Point corner(unsigned bits) const {
     return {(bits & 1 ? upper : lower).x, (bits & 2 ? upper : lower).y, (bits & 4 ? upper : lower).z};
   }
-  Vec3 centre() const { return 0.5f * lower + 0.5f * upper; }
+  /// The origin when empty.
+  Point centre() const { return empty() ? Point(0) : Real{0.5} * lower + Real{0.5} * upper; }
   /// Half of the diagonal: the radius of the smallest sphere around centre() that holds the box; 0 when empty.
-  float radius() const { return empty() ? 0.0f : glm::length(0.5f * upper - 0.5f * lower); }
+  Real radius() const { return empty() ? Real{0} : glm::length(Real{0.5} * upper - Real{0.5} * lower); }
 };
+using Bounds = BoundsOf<Vec3>;
+/// Before positions are floats around a middle of the scene.
+using DoubleBounds = BoundsOf<glm::dvec3>;
 
 }  // namespace cellcut

@@ -36,8 +36,7 @@ struct Bucket {
   std::uint32_t count = 0;
 
   void add(const BuildLight& light) {
-    box.lower = glm::min(box.lower, light.lower);
-    box.upper = glm::max(box.upper, light.upper);
+    box.add({light.lower, light.upper});
     axis += light.axis;
     intensity += light.intensity;
     ++count;

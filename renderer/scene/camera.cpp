@@ -17,7 +17,7 @@ Ray cameraRay(const Camera& camera, Vec2 film, glm::ivec2 size) {
 
 Camera defaultCamera(const Bounds& bounds) {
   const float radius = bounds.radius() > 0 ? bounds.radius() : 1.0f;
-  const Vec3 centre = bounds.empty() ? Vec3{0} : bounds.centre();
+  const Vec3 centre = bounds.centre();
   Camera camera;
   camera.name = "default";
   camera.back = glm::normalize(Vec3{0.6f, 0.45f, 1.0f});

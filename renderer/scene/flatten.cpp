@@ -16,23 +16,10 @@ namespace {
 /// Vertices per task: large enough to hide the cost of a task, small enough to share one big mesh among threads.
 constexpr std::size_t kVerticesPerTask = 8192;
 
-struct DoubleBounds {
-  glm::dvec3 lower{std::numeric_limits<double>::infinity()};
-  glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
-
-  bool empty() const { return lower.x > upper.x; }
-  glm::dvec3 centre() const { return empty() ? glm::dvec3(0) : 0.5 * lower + 0.5 * upper; }
-  double radius() const { return empty() ? 0 : glm::length(0.5 * upper - 0.5 * lower); }
-  void add(const glm::dvec3& p) {
-    lower = glm::min(lower, p);
-    upper = glm::max(upper, p);
-  }
-  static DoubleBounds merged(DoubleBounds a, const DoubleBounds& b) {
-    a.lower = glm::min(a.lower, b.lower);
-    a.upper = glm::max(a.upper, b.upper);
-    return a;
-  }
-};
+DoubleBounds merged(DoubleBounds a, const DoubleBounds& b) {
+  a.add(b);
+  return a;
+}
 
 DoubleBounds instanceBounds(const Part& part, const glm::dmat4& world) {
   return tbb::parallel_reduce(
@@ -43,7 +30,7 @@ DoubleBounds instanceBounds(const Part& part, const glm::dmat4& world) {
         }
         return bounds;
       },
-      DoubleBounds::merged);
+      merged);
 }
 
 /// Bounds of the triangles in the file's coordinates; of the lights only where there are none, for around the middle of
@@ -54,11 +41,11 @@ DoubleBounds draftBounds(const SceneDraft& draft) {
       [&](const auto& range, DoubleBounds sum) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           const PartInstance& instance = draft.instances[i];
-          sum = DoubleBounds::merged(sum, instanceBounds(draft.parts[instance.part], instance.world));
+          sum.add(instanceBounds(draft.parts[instance.part], instance.world));
         }
         return sum;
       },
-      DoubleBounds::merged);
+      merged);
   if (!bounds.empty()) return bounds;
   for (const glm::dvec3& p : draft.pointPositions) bounds.add(p);
   for (const glm::dvec3& p : draft.spotPositions) bounds.add(p);

@@ -222,16 +222,14 @@ Part ObjReader::partOf(const PartKey& key, const PartBuilder& builder, const glm
 
 void ObjReader::finish() {
   // The file has decimals; as floats they keep them only around the middle of the model.
-  glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper(-lower);
+  DoubleBounds bounds;
   for (const auto& [key, builder] : parts_) {
     for (const Corner& corner : builder.vertices) {
       const glm::dvec3& p = positions_[corner.position];
-      if (!isFinite(Vec3(p))) continue;
-      lower = glm::min(lower, p);
-      upper = glm::max(upper, p);
+      if (isFinite(Vec3(p))) bounds.add(p);
     }
   }
-  const glm::dvec3 centre = lower.x <= upper.x ? 0.5 * lower + 0.5 * upper : glm::dvec3(0);
+  const glm::dvec3 centre = bounds.centre();
   const glm::dmat4 world = glm::translate(glm::dmat4(1), centre);
   for (const auto& [key, builder] : parts_) {
     draft_.instances.push_back({draft_.parts.size(), world});

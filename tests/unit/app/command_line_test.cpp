@@ -163,12 +163,12 @@ std::set<std::string> optionsIn(const std::string& text) {
   return options;
 }
 
-/// What bash offers behind `cellcut VERB file --`.
-std::string completionOf(const std::string& verb) {
-  const std::string command = "bash -c 'source \"" CELLCUT_ASSETS
-                              "/completions/cellcut.bash\"; COMP_CWORD=3; "
-                              "COMP_WORDS=(cellcut " +
-                              verb + " file --); _cellcut; echo ${COMPREPLY[*]}'";
+/// What bash offers behind `cellcut WORDS --`.
+std::string completionOf(const std::string& words) {
+  const std::string command = "bash -c 'source \"" CELLCUT_ASSETS "/completions/cellcut.bash\"; COMP_WORDS=(cellcut " +
+                              words +
+                              " --); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
+                              "_cellcut; echo ${COMPREPLY[*]}'";
   std::FILE* const bash = popen(command.c_str(), "r");
   std::string offered;
   for (int c; bash && (c = std::fgetc(bash)) != EOF;) offered += static_cast<char>(c);
@@ -185,8 +185,15 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string& verb : allVerbs()) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render measure compare generate info"));
-    EXPECT_EQ(optionsIn(completionOf(verb)), optionsIn(runCommand({verb, "--help"}).out)) << verb;
+    EXPECT_EQ(optionsIn(completionOf(verb + " file")), optionsIn(runCommand({verb, "--help"}).out)) << verb;
   }
+#ifdef CELLCUT_UI
+  for (const std::string before : {"room.glb", "--headless", ""}) {
+    std::set<std::string> offered = optionsIn(completionOf(before));
+    EXPECT_EQ(offered.erase("--version"), before.empty()) << "of the program, not of a verb";
+    EXPECT_EQ(offered, optionsIn(runCommand({"view", "--help"}).out)) << before;
+  }
+#endif
 }
 
 /// Verbs that work on a small scene of all five kinds of light.

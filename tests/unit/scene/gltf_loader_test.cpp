@@ -415,6 +415,13 @@ TEST_F(GltfLoader, IgnoresSkinsMorphTargetsAndAnimationsWithOneWarning) {
   EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("skins, animations and morph targets are ignored")));
 }
 
+TEST_F(GltfLoader, SkinsMayLeaveOutTheirInverseBindMatrices) {
+  GltfBuilder file;
+  file.addRoot({{"mesh", file.addTriangle()}, {"skin", 0}});
+  file.json["skins"] = {{{"joints", {0}}}, {{"joints", {0}}}};
+  EXPECT_THAT(load(file).warnings, testing::ElementsAre(HasSubstr("skins, animations and morph targets are ignored")));
+}
+
 TEST_F(GltfLoader, WarnsOnceOfEachExtensionThatIsUsedAndUnknown) {
   GltfBuilder file;
   file.json["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_sheen", "KHR_materials_ior"};
