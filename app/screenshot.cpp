@@ -119,7 +119,7 @@ void renderToEnd(Viewer& viewer, Window& window, std::uint64_t passes) {
   viewer.frame(kFrameSeconds);
 }
 
-/// What does not fit the rendering is refused before it begins.
+/// What does not fit the rendering is refused before its samples are waited for.
 /// \param viewer  has its size by a first frame
 void requireFits(const ScreenshotOptions& options, Viewer& viewer) {
   const RenderSettings& settings = viewer.state().settings;

@@ -6,7 +6,7 @@ _cellcut_files() {
   local IFS=$'\n' extensions=$1
   COMPREPLY+=($(compgen -d -- "$cur"))
   COMPREPLY+=($(compgen -f -- "$cur" | grep -iE "\.($extensions)\$"))
-  compopt -o filenames
+  compopt -o filenames 2>/dev/null
 }
 
 _cellcut_words() { COMPREPLY+=($(compgen -W "$1" -- "$cur")); }
@@ -103,7 +103,8 @@ _cellcut() {
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
     _cellcut_words 'view screenshot render measure compare generate info --help --version'
-    _cellcut_view # the word view may be left out
+    # The word view may be left out. Folders that are called as a verb begins do not come in its way.
+    if [[ -z $cur || ${#COMPREPLY[@]} == 0 || $cur == -* ]]; then _cellcut_view; fi
     return
   fi
   case ${COMP_WORDS[1]} in

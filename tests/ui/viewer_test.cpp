@@ -117,21 +117,26 @@ TEST_F(ViewerTest, AnySeedOf64BitsIsShownAndSet) {
   EXPECT_EQ(viewer_->widgets().find("Seed")->value, "9223372036854775813");
   play("set Seed 18446744073709551615\nwait idle\n");
   EXPECT_EQ(viewer_->state().settings.seed, ~std::uint64_t{0});
-  play("set Seed 7\nwait idle\n");
-  EXPECT_EQ(viewer_->state().settings.seed, 7u);
+  for (const std::string none : {"-1", "2.7", "1e3", "18446744073709551616", "x"}) {
+    EXPECT_THAT(refusalOf("set Seed " + none + "\n"), HasSubstr("script.txt:1: '" + none + "' is no whole number"))
+        << none;
+  }
+  EXPECT_EQ(viewer_->state().settings.seed, ~std::uint64_t{0});
+}
+
+TEST_F(ViewerTest, WhatIsTypedIsTakenInNarrowPanels) {
+  ViewerOptions options = optionsOfTests();
+  options.uiScale = 2;
+  viewer_.reset();
+  viewer_ = std::make_unique<Viewer>(*window_, scene_, nullptr, std::move(options));
+  play("set Seed 42\nset \"Max depth\" 3\n");
+  EXPECT_EQ(viewer_->state().settings.seed, 42u);
+  EXPECT_EQ(viewer_->state().settings.maxDepth, 3);
 }
 
 TEST_F(ViewerTest, WhatLiesOverAPictureGoesWithItWhenTheOtherIsShown) {
-  const auto other = [this] {
-    window_->post(KeyChange{Key::kB, true});
-    for (int i = 0; i < 2; ++i) {
-      window_->pollEvents();
-      viewer_->frame(1.0 / 60);
-    }
+  const auto shownPixels = [this] {
     const ImageRgba8 picture = viewer_->picture();
-    window_->post(KeyChange{Key::kB, false});
-    window_->pollEvents();
-    viewer_->frame(1.0 / 60);
     const PixelRect area = viewer_->imageArea();
     std::vector<Rgba8> pixels;
     for (int y = 0; y < static_cast<int>(area.size.y); ++y) {
@@ -141,12 +146,27 @@ TEST_F(ViewerTest, WhatLiesOverAPictureGoesWithItWhenTheOtherIsShown) {
     }
     return pixels;
   };
+  const auto other = [&] {
+    window_->post(KeyChange{Key::kB, true});
+    for (int i = 0; i < 2; ++i) {
+      window_->pollEvents();
+      viewer_->frame(1.0 / 60);
+    }
+    const std::vector<Rgba8> pixels = shownPixels();
+    window_->post(KeyChange{Key::kB, false});
+    window_->pollEvents();
+    viewer_->frame(1.0 / 60);
+    return pixels;
+  };
   play("wait idle\nmove 2 2\n");
   viewer_->storePicture();
   const std::vector<Rgba8> plain = other();
   play("set Show cut-size\nwait idle\npick 90 350\nwait idle\nmove 2 2\n");
   ASSERT_TRUE(viewer_->state().pick);
   EXPECT_TRUE(other() == plain);
+  // So it does with the split at the left edge.
+  play("set Split 0\nmove 2 2\n");
+  EXPECT_TRUE(shownPixels() == plain);
 }
 
 TEST_F(ViewerTest, AClickInspectsTheCellUnderThePointer) {
@@ -315,7 +335,8 @@ TEST_F(ViewerTest, ScriptsNameTheLineThatFails) {
   EXPECT_THAT(refusalOf("size 10 x\n"), HasSubstr("is no number"));
   EXPECT_THAT(refusalOf("wait for it\n"), HasSubstr("'wait' is followed by"));
   EXPECT_THAT(refusalOf("wait idle\nkey Ctrl+Foo\n"), HasSubstr("script.txt:2: no key is called 'Ctrl+Foo'"));
-  EXPECT_THAT(refusalOf("set \"Max depth\" deep\n"), HasSubstr("script.txt:1: 'deep' is no number"));
+  EXPECT_THAT(refusalOf("set \"Max depth\" deep\n"), HasSubstr("script.txt:1: 'deep' is no whole number"));
+  EXPECT_THAT(refusalOf("set Exposure deep\n"), HasSubstr("script.txt:1: 'deep' is no number"));
   EXPECT_THAT(refusalOf("pick 4000 2\n"), HasSubstr("script.txt:1: the picture has "));
   EXPECT_THAT(refusalOf("screenshot a.exr\n"), HasSubstr("script.txt:1: 'a.exr' does not end in .png"));
   EXPECT_THAT(refusalOf("drag rihgt 1 1 5 5\n"), HasSubstr("'rihgt' is none of left, right, middle"));

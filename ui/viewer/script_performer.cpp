@@ -163,7 +163,12 @@ void ScriptPerformer::set() const {
       return;
     }
     case WidgetItem::Kind::kNumber:
-      number(2);  // refuses what is none
+    case WidgetItem::Kind::kWhole:
+      if (target.kind == WidgetItem::Kind::kNumber) {
+        number(2);  // refuses what is none
+      } else if (!wholeNumber(value)) {
+        fail("'" + value + "' is no whole number, of digits alone");
+      }
       // Ctrl+click turns a slider into a field; a field takes it as a click.
       window_.post(KeyChange{Key::kLeftControl, true});
       frames(1);

@@ -4,6 +4,7 @@
 #include "ui/input_event.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 #include <imgui.h>
@@ -39,6 +40,13 @@ std::string hidden(const char* label) {
 }
 
 }  // namespace
+
+std::optional<std::uint64_t> wholeNumber(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+  return value;
+}
 
 const WidgetItem* Widgets::find(std::string_view label) const {
   const auto found = std::find_if(items_.begin(), items_.end(),
@@ -103,7 +111,7 @@ bool Widgets::slider(const char* label, int& value, int least, int most, const c
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? static_cast<int>(ImGuiSliderFlags_Logarithmic) : 0);
   const bool edited = ImGui::SliderInt(hidden(label).c_str(), &value, least, most, "%d", flags);
-  remember(WidgetItem::Kind::kNumber, label, std::to_string(value));
+  remember(WidgetItem::Kind::kWhole, label, std::to_string(value));
   explain(tooltip);
   if (edited) changed(label, std::to_string(value));
   return edited;
@@ -111,14 +119,16 @@ bool Widgets::slider(const char* label, int& value, int least, int most, const c
 
 bool Widgets::whole(const char* label, std::uint64_t& value, const char* tooltip) {
   nameOfField(label);
-  static_assert(sizeof(std::uint64_t) == sizeof(ImU64));
-  const std::uint64_t step = 1;
-  const bool edited = ImGui::InputScalar(hidden(label).c_str(), ImGuiDataType_U64, &value, &step, nullptr, nullptr,
-                                         ImGuiInputTextFlags_EnterReturnsTrue);
-  remember(WidgetItem::Kind::kNumber, label, std::to_string(value));
+  char text[32];
+  std::snprintf(text, sizeof text, "%s", std::to_string(value).c_str());
+  const bool entered = ImGui::InputText(hidden(label).c_str(), text, sizeof text,
+                                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const std::optional<std::uint64_t> number = entered ? wholeNumber(text) : std::nullopt;
+  if (number) value = *number;
+  remember(WidgetItem::Kind::kWhole, label, std::to_string(value));
   explain(tooltip);
-  if (edited) changed(label, std::to_string(value));
-  return edited;
+  if (number) changed(label, std::to_string(value));
+  return number.has_value();
 }
 
 bool Widgets::number(const char* label, double& value, const char* tooltip) {

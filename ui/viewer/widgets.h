@@ -4,6 +4,7 @@
 
 #include "renderer/base/math.h"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,9 +13,12 @@
 
 namespace cellcut {
 
+/// The number that all of the text is, decimal digits alone; nothing for any other and from 2^64 on.
+std::optional<std::uint64_t> wholeNumber(std::string_view text);
+
 /// What a frame showed under a label.
 struct WidgetItem {
-  enum class Kind { kButton, kCheckbox, kNumber, kChoice, kOption, kText } kind;
+  enum class Kind { kButton, kCheckbox, kNumber, kWhole, kChoice, kOption, kText } kind;
   std::string label;
   std::string value;    ///< as shown: "on", "off", a number, the chosen name, a text
   Vec2 lower, upper;    ///< framebuffer pixels
@@ -47,7 +51,7 @@ class Widgets {
   bool checkbox(const char* label, bool& value, const char* tooltip = nullptr);
   bool slider(const char* label, float& value, float least, float most, const char* tooltip, bool logarithmic = false);
   bool slider(const char* label, int& value, int least, int most, const char* tooltip, bool logarithmic = false);
-  /// A whole number to type, or to step by one.
+  /// A field for a whole number of its own; what is none is not taken.
   bool whole(const char* label, std::uint64_t& value, const char* tooltip);
   /// A field for a number of its own; 0 means none.
   bool number(const char* label, double& value, const char* tooltip);

@@ -163,11 +163,12 @@ std::set<std::string> optionsIn(const std::string& text) {
   return options;
 }
 
-/// What bash offers behind `cellcut WORDS --`.
-std::string completionOf(const std::string& words) {
-  const std::string command = "bash -c 'source \"" CELLCUT_ASSETS "/completions/cellcut.bash\"; COMP_WORDS=(cellcut " +
+/// What bash offers in a folder behind `cellcut WORDS`, the last of which is begun.
+std::string completionOf(const std::string& words, const std::filesystem::path& folder = "/") {
+  const std::string command = "bash -c 'cd \"" + folder.string() +
+                              "\"; source \"" CELLCUT_ASSETS "/completions/cellcut.bash\"; COMP_WORDS=(cellcut " +
                               words +
-                              " --); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
+                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
                               "_cellcut; echo ${COMPREPLY[*]}'";
   std::FILE* const bash = popen(command.c_str(), "r");
   std::string offered;
@@ -185,16 +186,28 @@ TEST(CommandLine, CompletionKnowsEveryOptionAndName) {
   for (const RecipeName& r : kRecipes) EXPECT_THAT(script, HasSubstr(std::string(r.name)));
   for (const std::string& verb : allVerbs()) {
     EXPECT_THAT(script, HasSubstr("_cellcut_words 'view screenshot render measure compare generate info"));
-    EXPECT_EQ(optionsIn(completionOf(verb + " file")), optionsIn(runCommand({verb, "--help"}).out)) << verb;
+    EXPECT_EQ(optionsIn(completionOf(verb + " file --")), optionsIn(runCommand({verb, "--help"}).out)) << verb;
   }
 #ifdef CELLCUT_UI
   for (const std::string before : {"room.glb", "--headless", ""}) {
-    std::set<std::string> offered = optionsIn(completionOf(before));
+    std::set<std::string> offered = optionsIn(completionOf(before + " --"));
     EXPECT_EQ(offered.erase("--version"), before.empty()) << "of the program, not of a verb";
     EXPECT_EQ(offered, optionsIn(runCommand({"view", "--help"}).out)) << before;
   }
 #endif
 }
+
+#ifdef CELLCUT_UI
+TEST(CommandLine, CompletionOffersScenesAndFoldersWhereNoVerbIsBegun) {
+  const test::TemporaryDirectory folder;
+  std::filesystem::create_directory(folder / "renderer");
+  writeFile(folder / "room.glb", "");
+  writeFile(folder / "room.txt", "");
+  EXPECT_EQ(completionOf("ro", folder.path()), "room.glb\n");
+  EXPECT_EQ(completionOf("rend", folder.path()), "render\n") << "not the folder";
+  EXPECT_EQ(completionOf("renderer", folder.path()), "renderer\n");
+}
+#endif
 
 /// Verbs that work on a small scene of all five kinds of light.
 class VerbsOnAScene : public testing::Test {

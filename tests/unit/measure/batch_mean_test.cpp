@@ -4,6 +4,8 @@
 #include "renderer/base/rng.h"
 #include "renderer/measure/metrics.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace cellcut {
