@@ -54,7 +54,7 @@ class BatchFiles {
 
   /// The largest number of batches up to `most` that is there and can be read.
   Batches load(std::uint64_t most, const RenderSettings& settings) const {
-    const Batches empty{BatchMean(settings.width, settings.height)};
+    Batches empty{BatchMean(settings.width, settings.height)};
     for (std::uint64_t count : counts()) {
       if (count > most) continue;
       if (auto batches = read(count, empty)) return *batches;

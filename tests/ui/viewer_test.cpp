@@ -152,7 +152,7 @@ TEST_F(ViewerTest, WhatLiesOverAPictureGoesWithItWhenTheOtherIsShown) {
       window_->pollEvents();
       viewer_->frame(1.0 / 60);
     }
-    const std::vector<Rgba8> pixels = shownPixels();
+    std::vector<Rgba8> pixels = shownPixels();
     window_->post(KeyChange{Key::kB, false});
     window_->pollEvents();
     viewer_->frame(1.0 / 60);
