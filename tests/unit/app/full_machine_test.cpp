@@ -141,6 +141,33 @@ TEST(FewCores, MoreThreadsAreUsedWithoutAWord) {
   EXPECT_THAT(run.err(), testing::Not(HasSubstr("TBB")));
 }
 
+constexpr int kNotStarted = 127;  // its libraries do not fit
+
+TEST(NoMemory, IsSaidFromTheFirstByteOnThatTheLibrariesLeave) {
+  if (test::isSanitized()) GTEST_SKIP() << "a sanitizer's shadow memory takes terabytes";
+  const test::TemporaryDirectory folder;
+  const auto endWith = [&](int kilobytes, std::string& said) {
+    ProgramRun run({"--version"}, folder.path(), "ulimit -v " + std::to_string(kilobytes));
+    const test::ProgramEnd end = run.wait();
+    said = run.err();
+    return end;
+  };
+  std::string said;
+  int tooLittle = 8'000, enough = 1'000'000;
+  while (enough - tooLittle > 4) {
+    const int middle = (tooLittle + enough) / 2;
+    (endWith(middle, said).code == kNotStarted ? tooLittle : enough) = middle;
+  }
+  for (int more = 0; more < 512; more += 8) {  // the first block of the heap has 132
+    const test::ProgramEnd end = endWith(enough + more, said);
+    EXPECT_EQ(end.signal, 0) << more << " kB: " << said;
+    if (end.code != kDone) {
+      EXPECT_EQ(end.code, kFailed);
+      EXPECT_THAT(said, testing::StartsWith("cellcut: not enough memory")) << more << " kB";
+    }
+  }
+}
+
 TEST(NoMemory, IsSaidHoweverLittleThereIs) {
   if (test::isSanitized()) GTEST_SKIP() << "a sanitizer's shadow memory takes terabytes";
   const test::TemporaryDirectory folder;
@@ -155,7 +182,6 @@ TEST(NoMemory, IsSaidHoweverLittleThereIs) {
     const test::ProgramEnd end = run.wait();
     EXPECT_EQ(end.signal, 0) << kilobytes << " kB: " << run.err();
     code = end.code;
-    constexpr int kNotStarted = 127;  // its libraries do not fit
     if (code == kDone || code == kNotStarted) continue;
     EXPECT_EQ(fs::exists(folder / "a.pfm"), false);
     refusals.insert(std::to_string(code) + " " + lastLine(run.err()));
