@@ -143,7 +143,7 @@ TEST(FewCores, MoreThreadsAreUsedWithoutAWord) {
 
 constexpr int kNotStarted = 127;  // its libraries do not fit
 
-TEST(NoMemory, IsSaidFromTheFirstByteOnThatTheLibrariesLeave) {
+TEST(NoMemory, IsSaidAsSoonAsTheLibrariesAreLoaded) {
   if (test::isSanitized()) GTEST_SKIP() << "a sanitizer's shadow memory takes terabytes";
   const test::TemporaryDirectory folder;
   const auto endWith = [&](int kilobytes, std::string& said) {
@@ -158,13 +158,14 @@ TEST(NoMemory, IsSaidFromTheFirstByteOnThatTheLibrariesLeave) {
     const int middle = (tooLittle + enough) / 2;
     (endWith(middle, said).code == kNotStarted ? tooLittle : enough) = middle;
   }
-  for (int more = 0; more < 512; more += 8) {  // the first block of the heap has 132
+  // The linker of glibc 2.41 itself ends by a signal where there is no page left for it (4 kB).
+  for (int more = 32; more < 16'384; more += more < 512 ? 16 : 256) {
     const test::ProgramEnd end = endWith(enough + more, said);
     EXPECT_EQ(end.signal, 0) << more << " kB: " << said;
-    if (end.code != kDone) {
-      EXPECT_EQ(end.code, kFailed);
-      EXPECT_THAT(said, testing::StartsWith("cellcut: not enough memory")) << more << " kB";
-    }
+    // The linker may do with less and not with more, by where things come to lie.
+    if (end.code == kDone || end.code == kNotStarted) continue;
+    EXPECT_EQ(end.code, kFailed);
+    EXPECT_THAT(said, testing::StartsWith("cellcut: not enough memory")) << more << " kB";
   }
 }
 
