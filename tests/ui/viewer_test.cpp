@@ -117,6 +117,8 @@ TEST_F(ViewerTest, AnySeedOf64BitsIsShownAndSet) {
   EXPECT_EQ(viewer_->widgets().find("Seed")->value, "9223372036854775813");
   play("set Seed 18446744073709551615\nwait idle\n");
   EXPECT_EQ(viewer_->state().settings.seed, ~std::uint64_t{0});
+  play("expect Seed 18446744073709551615\n");
+  EXPECT_THAT(refusalOf("expect Seed 18446744073709551614\n"), HasSubstr("'Seed' is '18446744073709551615' and not"));
   for (const std::string none : {"-1", "2.7", "1e3", "18446744073709551616", "x"}) {
     EXPECT_THAT(refusalOf("set Seed " + none + "\n"), HasSubstr("script.txt:1: '" + none + "' is no whole number"))
         << none;

@@ -14,7 +14,7 @@
 ///     drop FILE
 ///     wait spp N | wait idle   idle: nothing is left to render, load or look up
 ///     screenshot FILE          .png
-///     expect LABEL VALUE       numbers are compared as numbers
+///     expect LABEL VALUE       numbers are compared as numbers, whole ones digit by digit
 ///     quit
 ///
 /// What is not there yet is waited for while something is looked up, and what is scrolled out of its panel comes in.
