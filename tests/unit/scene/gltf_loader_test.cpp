@@ -415,6 +415,14 @@ TEST_F(GltfLoader, IgnoresSkinsMorphTargetsAndAnimationsWithOneWarning) {
   EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("skins, animations and morph targets are ignored")));
 }
 
+TEST_F(GltfLoader, OriginIsTheMiddleOfAllInstancesHoweverThreadsShareThem) {
+  GltfBuilder file;
+  const std::size_t mesh = file.addTriangle();
+  constexpr int kCount = 20'000;  // of which several threads take their share
+  for (int i = 0; i < kCount; ++i) file.addRoot({{"mesh", mesh}, {"translation", {i, -i, 0}}});
+  EXPECT_EQ(load(file).origin, glm::dvec3(0.5 * kCount, 0.5 * (2 - kCount), 0));
+}
+
 TEST_F(GltfLoader, SkinsMayLeaveOutTheirInverseBindMatrices) {
   GltfBuilder file;
   file.addRoot({{"mesh", file.addTriangle()}, {"skin", 0}});
